@@ -15,8 +15,7 @@ from bihdist_core.formats.mesh_names import MESH_FORMATS
 from .commands import batch, desktop, field, figure, graph, guide, info, isolines, movie, page, pairs, paper, view
 from .commands.mesh import check_mesh
 from .commands.parser import Parser
-from .commands.result import as_json
-from .commands.terminal import add_telling, standard_output, tell_failure, telling, warn
+from .commands.terminal import add_telling, as_json, standard_output, tell_failure, telling, warn
 from .commands.termination import status_of, termination_raised, words_of
 from .document.tools import tools
 from .version import disagreement, version

@@ -121,7 +121,7 @@ class Laplacian:
     operator : {"cotan", "intrinsic-delaunay", "tufted"}
         The triangles whose cotangents the stiffness matrix has: the faces, as in the paper; those of an intrinsic
         Delaunay triangulation, for thin faces; or of the tufted cover, for edges of more than two faces, which has
-        areas of its own and needs the package robust_laplacian.
+        areas of its own. The last two need the compiled kernel.
 
     Attributes
     ----------

@@ -49,9 +49,9 @@ def operators(surface: Surface, areas: str = "voronoi", operator: str = COTAN) -
     if operator == TUFTED:
         return tufted(surface)
     if operator == INTRINSIC:
-        return _of_corners(len(surface.vertices), *delaunay(surface), areas)
+        return _of_lengths(len(surface.vertices), *delaunay(surface), areas)
     corners = _corners(surface)
-    return _assembled(surface, _weights(surface, corners)), _areas(surface, areas, corners)
+    return _stiffness(surface, corners), _areas(surface, areas, corners)
 
 
 def operators_by_lengths(
@@ -83,35 +83,23 @@ def operators_by_lengths(
         i, j = edges[wrong[0]]
         raise ParameterError(f"{name}: edge {i}, {j} is {least[wrong[0]]:g} long in a face, and {most[wrong[0]]:g}.")
     if operator == INTRINSIC:
-        flip(triangles, sides)
-    return _of_corners(n, triangles, corners_of(sides), areas)
+        triangles, sides = flip(triangles, sides, number.reshape(-1, 3), name)
+    return _of_lengths(n, triangles, sides, areas)
 
 
-def _of_corners(n: int, faces: IntArray, corners: Corners, areas: str) -> tuple[sp.csr_matrix, FloatArray]:
+def _of_lengths(n: int, faces: IntArray, lengths: FloatArray, areas: str) -> tuple[sp.csr_matrix, FloatArray]:
+    corners = corners_of(lengths)
     shares = _shares(areas, corners)
-    return stiffness_of(n, faces, corners[0]), np.bincount(faces.T.ravel(), shares.ravel(), n).astype(float)
+    return stiffness_of(n, faces, corners[0] / 2), np.bincount(faces.T.ravel(), shares.ravel(), n).astype(float)
 
 
 def stiffness(surface: Surface) -> sp.csr_matrix:
     """Return (n, n) cotangent stiffness matrix; the rows of unreferenced vertices are empty."""
-    return _assembled(surface, face_weights(surface))
+    return _stiffness(surface, _corners(surface))
 
 
-def _assembled(surface: Surface, weights: FloatArray) -> sp.csr_matrix:
-    n, f = len(surface.vertices), surface.faces
-    if lib := library():
-        room = n + 9 * len(f)
-        start, index, value = np.empty(n + 1, np.int32), np.empty(room, np.int32), np.empty(room)
-        count = lib.bih_stiffness(
-            n, len(f), np.ascontiguousarray(f, np.int64), weights, start, index, value, np.empty(3 * n + 1, np.int32)
-        )
-        matrix = sp.csr_matrix((value[:count].copy(), index[:count].copy(), start), shape=(n, n))
-        matrix.has_canonical_format = True
-        return matrix
-    i, j = (np.concatenate([f[:, (k + s) % 3] for k in range(3)]) for s in (1, 2))
-    half = sp.coo_matrix((weights.ravel(), (i, j)), shape=(n, n)).tocsr()
-    weights = half + half.T
-    return (sp.diags_array(np.asarray(weights.sum(axis=1)).ravel()) - weights).tocsr()
+def _stiffness(surface: Surface, corners: Corners) -> sp.csr_matrix:
+    return stiffness_of(len(surface.vertices), surface.faces, _weights(surface, corners))
 
 
 def face_weights(surface: Surface) -> FloatArray:

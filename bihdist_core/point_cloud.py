@@ -14,10 +14,10 @@ from .arrays import FloatArray, IntArray
 from .coincident_points import merged, merged_within
 from .counts import counted
 from .errors import MeshError, ParameterError
+from .intrinsic import kernel_for, tufted
 from .mesh_arrays import check_size, checked_vertices
 from .nodes import Matrices, Nodes, nodes_of, spread
-from .progress import Progress
-from .solver.aside import aside
+from .solver.worker_threads import side_by_side
 from .surface import Surface
 
 NEIGHBOURS = 30
@@ -25,8 +25,8 @@ NEIGHBOURS = 30
 PLANE = 13
 """Nearest points, with itself, whose plane tells the normal of a point."""
 FEWEST = 4
-LONG = 5_000
-"""From so many points on the matrices are made in a process of its own, which lets other threads run."""
+TOGETHER = 4_000
+"""Points whose neighbours are found by one thread at a time."""
 
 
 class PointCloud(Nodes):
@@ -51,15 +51,17 @@ class PointCloud(Nodes):
     Raises
     ------
     MeshError
-        For wrong shapes, fewer than 4 points, points in a line, coordinates that are infinite, and if the package
-        robust_laplacian is not installed, which ``pip install 'bihdist[points]'`` brings.
+        For wrong shapes, fewer than 4 points, points in a line, coordinates that are infinite, and without the
+        compiled kernel.
 
     Notes
     -----
-    The Laplacian is that of Sharp and Crane (A Laplacian for Nonmanifold Triangle Meshes, 2020): triangles about each
-    point in the plane of its 30 neighbours, all together as a non-manifold mesh with a tufted cover.  All distances but
-    the geodesic one are then as exact as on meshes.  Points that repeat another have no distance (NaN), as one place
-    has one row; `merged` takes them out.
+    The Laplacian is that of Sharp and Crane (A Laplacian for Nonmanifold Triangle Meshes, 2020): Delaunay triangles
+    about each point in the plane of its 30 neighbours, all together as a non-manifold mesh with a tufted cover, a third
+    of it as each is there about three points.  Unlike theirs the cover has three layers, of triangles about at least
+    one, two and three of their corners: flips between triangles in one place would make distances of random points
+    some 5 % too large.  All distances but the geodesic one are as exact as on meshes.  Points that repeat another have
+    no distance (NaN), as one place has one row; `merged` takes them out.
 
     Examples
     --------
@@ -72,6 +74,7 @@ class PointCloud(Nodes):
     """
 
     matrices: Matrices
+    _triangles: IntArray
 
     def __init__(
         self,
@@ -95,15 +98,17 @@ class PointCloud(Nodes):
             k, axis = np.argwhere(~np.isfinite(x))[0]
             raise MeshError(f"{name}: point {k} has the coordinate {x[k, axis]:g}; all must be finite numbers.")
         check_size(x[ids], np.arange(len(ids))[None], name)
-        nodes, matrices = _found(x[ids], name)
+        layers = _layers(x[ids], name)
+        nodes, matrices = _measured(x[ids], layers, name)
         label = np.full(len(x), -1)
         label[ids] = nodes.component_of_vertex
         said = tuple(f"{each} left out (NaN)" for each in told if not each.startswith("0 "))
         super().__init__(x, name=name, facts=(*facts, *said), component_of_vertex=label)
         object.__setattr__(self, "matrices", spread(matrices, ids, len(x)))
+        object.__setattr__(self, "_triangles", ids[layers[0]])
 
     def __getstate__(self) -> dict[str, object]:
-        return {**super().__getstate__(), "matrices": self.matrices}
+        return {**super().__getstate__(), "matrices": self.matrices, "_triangles": self._triangles}
 
     def __repr__(self) -> str:
         return f"PointCloud({self.name}: {len(self.vertices):,} points)"
@@ -137,12 +142,8 @@ class PointCloud(Nodes):
 
     @cached_property
     def shape(self) -> Surface:
-        """The triangles (m, 3) of which all sides are `edges`, counter-clockwise seen from outside."""
-        n, (i, j) = len(self.vertices), self.edges.T
-        after = sp.csr_matrix((np.ones(len(i), np.int8), (i, j)), shape=(n, n))
-        # Of each edge, what comes after both of its ends.
-        both = after[i].multiply(after[j]).tocoo()
-        faces = np.stack([i[both.row], j[both.row], both.col], axis=1)
+        """The Delaunay triangles (m, 3) about all points, counter-clockwise seen from outside."""
+        faces = self._triangles.copy()
         a, b, c = (self.vertices[faces[:, k]] for k in range(3))
         inward = np.einsum("ij,ij->i", np.cross(b - a, c - a), self.normals[faces].sum(axis=1)) < 0
         faces[inward] = faces[inward][:, [0, 2, 1]]
@@ -180,27 +181,30 @@ class PointCloud(Nodes):
         return float(self.matrices[1].sum())
 
 
-def _found(points: FloatArray, name: str) -> tuple[Nodes, Matrices]:
-    """Return the nodes and the matrices of different points (n, 3)."""
-    try:
-        # In units of their extent, for what is large or small.
-        scale = float(np.ptp(points, axis=0).max())
-        unit = (points - points.mean(axis=0)) / scale
-        work = aside if len(points) >= LONG else lambda do, *arguments: do(*arguments)
-        stiffness, masses = work(_matrices, unit)
-    except ImportError:
-        raise MeshError(
-            f"{name} has points without faces, for which robust_laplacian is needed; `pip install 'bihdist[points]'` "
-            "brings it."
-        ) from None
-    except RuntimeError:
-        raise MeshError(f"{name}: no surface is found through its points; they may be in a line.") from None
-    return nodes_of(stiffness, masses * scale**2, points, name)
+def _measured(points: FloatArray, layers: list[IntArray], name: str) -> tuple[Nodes, Matrices]:
+    """Return the nodes and the matrices of different points (n, 3) with triangles in layers."""
+    found = side_by_side(lambda layer: tufted(Surface(points, layer, name)), layers)
+    stiffness, masses = (sum(each) / 3 for each in zip(*found, strict=True))
+    return nodes_of(stiffness, masses, points, name)
 
 
-def _matrices(points: FloatArray, progress: Progress | None = None) -> Matrices:
-    """Return stiffness matrix and areas of points (n, 3)."""
-    from robust_laplacian import point_cloud_laplacian
+def _layers(points: FloatArray, name: str) -> list[IntArray]:
+    """Return the Delaunay triangles (t, 3) about each point in the plane of its neighbours, each once: those about one
+    of their corners at least, about two, and about three."""
+    kernel, tree, n = kernel_for(name), cKDTree(points), len(points)
+    k = min(NEIGHBOURS + 1, n)
 
-    stiffness, masses = point_cloud_laplacian(points, n_neighbors=min(NEIGHBOURS, len(points) - 1))
-    return sp.csr_matrix(stiffness), masses.diagonal()
+    def star(first: int) -> IntArray:
+        end = min(first + TOGETHER, n)
+        near = tree.query(points[first:end], k)[1]
+        size, star = np.empty(end - first, np.int32), np.empty((end - first, k, 2), np.int32)
+        kernel.bih_stars(first, end, k, points, near, size, star)
+        return np.column_stack([np.repeat(np.arange(first, end), size), star[np.arange(k) < size[:, None]]])
+
+    triangles = np.sort(np.concatenate(side_by_side(star, range(0, n, TOGETHER))), axis=1)
+    if not np.bincount(triangles.ravel(), minlength=n).all():
+        raise MeshError(f"{name}: no surface is found through its points; they may be in a line.")
+    triangles = triangles[np.lexsort(triangles.T)]
+    first = np.flatnonzero(np.append(True, (triangles[1:] != triangles[:-1]).any(axis=1)))
+    times = np.diff(first, append=len(triangles))
+    return [triangles[first[times > k]] for k in range(times.max())]

@@ -19,9 +19,12 @@ import numpy as np
 from bihdist_core.analysis.parcels import ParcelSums, labelled, parcel_sums
 from bihdist_core.analysis.signature_types import is_signature
 from bihdist_core.analysis.surface_notes import surface_notes
+from bihdist_core.analysis.upright import guess_up
 from bihdist_core.arrays import FloatArray
 from bihdist_core.distances.answers import failure_in_words
 from bihdist_core.errors import BihdistError, OutputError
+from bihdist_core.experiments import EXPERIMENTS, Parts, Shapes
+from bihdist_core.experiments.result import CLAIM_COLUMNS
 from bihdist_core.formats.array_file import array_in, put_array
 from bihdist_core.machine_memory import release_freed
 from bihdist_core.solver.blas import one_blas_thread
@@ -43,10 +46,28 @@ from .jobs import (
 from .maps import evaluate_map
 from .memory import PART_BYTES, allowed, needed
 from .results import NORMALISED, ArrayBlocks, for_matlab, laid_out, write_metadata, write_result
-from .statements import write_statements
 from .storage import Folder
 from .task import Failure, Report, ResultRow, Task, TaskPart, existing_report, existing_row, failed_report
 from .work_order import KINDS, MAXIMA, STATEMENTS
+
+
+def write_statements(mesh: BatchMesh, folder: Folder, file: str) -> dict[str, Any]:
+    """Measure the statements of the wanted experiments and write the table; return what could not be done."""
+    wanted, parts = mesh.wanted, Parts()
+    up = wanted.up or parts.do("which way is up", guess_up, mesh.surface, mesh.extension) or "y"
+    shapes = Shapes(own=mesh.surface, up=up)
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(CLAIM_COLUMNS)
+    for id in wanted.experiments:
+        result = parts.do(id, EXPERIMENTS[id].compute, shapes, wanted.quick)
+        if result is not None:
+            writer.writerows(row for claim in result.claims for row in claim.rows())
+            for each in result.not_done:
+                parts.note(f"{id}, {each.part}", each.reason)
+    folder.write(file, text.getvalue().encode())
+    return {"up": up, "not_done": [str(each) for each in parts.not_done]}
+
 
 MASKED = "vertices with 0 are left out of results; distances still cross them"
 """The remark on a mask in the metadata."""

@@ -102,7 +102,8 @@ def draw_figure(path: str, mesh: BatchMesh, folder: Folder, file: str) -> dict[s
     failures = [f"{answer.label}: {answer.failure}" for answer in answers if answer.failure]
     if failures:
         raise SolverError(" ".join(failures))
-    document = _ended(_fitted(document, mesh.surface), mesh, answers)
+    document = replace(document, camera=_fit(document.camera, mesh.surface, document))
+    document = _ended(document, mesh, answers)
     views = tuple(_fit(view, mesh.surface, document) for view in recipe.page.views)
     recipe = replace(recipe, document=document, page=replace(recipe.page, views=views))
     figure = replace(figure_of(recipe, surfaces, answers), is_of_set=bool(mesh.wanted.maxima))
@@ -126,10 +127,6 @@ def draw_figure(path: str, mesh: BatchMesh, folder: Folder, file: str) -> dict[s
         for panel, answer, end in zip(document.panels, answers, ends, strict=True)
     ]
     return {"panels": panels, "range": mesh.wanted.range}
-
-
-def _fitted(document: Document, surface: Surface) -> Document:
-    return replace(document, camera=_fit(document.camera, surface, document))
 
 
 def _fit(view: View, surface: Surface, document: Document) -> View:

@@ -37,8 +37,7 @@ from .options import (
     neighbour_count,
     specs,
 )
-from .result import Facts, Result
-from .terminal import is_quiet, task_lines, tell, tell_failure
+from .terminal import Facts, Result, is_quiet, task_lines, tell, tell_failure
 from .termination import status_of, words_of
 
 if TYPE_CHECKING:

@@ -15,8 +15,7 @@ from bihdist_core.file_output import atomic_write
 from bihdist_core.formats.mesh_names import ARRAY_FILES, GZIP, MESH_FORMATS
 
 from ..samples import SAMPLES
-from .result import Result
-from .terminal import tell
+from .terminal import Result, tell
 
 WORDS = "add the viewer to the desktop's menu, and open mesh files with it (Linux)"
 EXAMPLES = (

@@ -12,8 +12,7 @@ from bihdist_core.errors import ParameterError
 
 from ..document.lists import split_list
 from .options import add_output, as_argument
-from .result import Facts, Result, distance_facts
-from .terminal import accuracy, progress_line, tell
+from .terminal import Facts, Result, accuracy, distance_facts, progress_line, tell
 
 if TYPE_CHECKING:
     from bihdist_core import Distance, Graph

@@ -3,7 +3,7 @@
 import argparse
 
 from ..guide_pages import guide_page
-from .result import Result
+from .terminal import Result
 
 WORDS = "open the guide in a browser"
 EXAMPLES = (

@@ -9,8 +9,7 @@ from bihdist_core.errors import ParameterError, SolverError
 from ..document.document import AREAS
 from .mesh import each_mesh, found_mesh
 from .options import add_areas, repairs_of
-from .result import Facts, Result, distance_facts, facts_of
-from .terminal import accuracy, progress_line
+from .terminal import Facts, Result, accuracy, distance_facts, facts_of, progress_line
 
 if TYPE_CHECKING:
     from bihdist_core import Surface

@@ -9,11 +9,10 @@ from bihdist_core.errors import OutputError, ParameterError
 
 from ..document.looks import TWENTY_STEPS, Isolines
 from ..figures.look_options import ISOLINES, isolines_with
-from .field_of import CommandField, field_of
+from .field import CommandField, field_of
 from .mesh import ids_beside
 from .options import add_areas, add_distance, add_mesh, add_output, add_rows, add_sources, given
-from .result import Facts, Result
-from .terminal import progress_line
+from .terminal import Facts, Result, progress_line
 
 if TYPE_CHECKING:
     from bihdist_core.arrays import FloatArray

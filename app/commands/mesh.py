@@ -1,4 +1,4 @@
-"""The mesh that a command names, and what to say where there is none."""
+"""The mesh that a command names, with its sources, and what to say where there is none."""
 
 import argparse
 import os
@@ -6,23 +6,29 @@ import re
 from collections.abc import Callable, Iterable, Sequence
 from typing import TYPE_CHECKING
 
+from bihdist_core.distances.distance_types import Spec
 from bihdist_core.errors import BihdistError, MeshError, MissingFileError, OutputError, ParameterError
 from bihdist_core.formats.mesh_names import is_there, mesh_name
+from bihdist_core.progress import Progress
 from bihdist_core.sentences import shortened
+from bihdist_core.sources.source import Source
+from bihdist_core.sources.words import short_words_of
 
 from ..batch.work_order import ARRAYS
-from ..document.document import AREAS, Document
+from ..document.document import AREAS, COMPARISON, Document
+from ..document.quantities import Quantity
 from ..document.repairs import NAME, NO_REPAIRS, Repairs
+from ..document.sources import HIGHEST, LISTED, POSITION, Sources
 from ..document.synonyms import COMMAND_HINTS, near
 from ..samples import mesh_path, sample_names
 from .options import repairs_of
-from .result import Facts, Result
-from .terminal import tell, tell_failure, tell_repairs
+from .terminal import Facts, Result, tell, tell_failure, tell_moved, tell_repairs
 
 if TYPE_CHECKING:
-    from bihdist_core import Laplacian
+    from bihdist_core import Distance, Laplacian, Surface
     from bihdist_core.arrays import IntArray
 
+    from ..session.chosen_sources import Chosen
 
 _SOURCES = re.compile(r"([0-9]+|f[0-9]+:[^/]*|loop:[0-9]+)([,+ ][^/]*)?")
 """Words that name a vertex or another source, and hardly a file."""
@@ -213,3 +219,91 @@ def each_mesh(meshes: Sequence[str], do: Callable[[str], Facts]) -> Result:
             tell_failure(str(error))
             failures.append({"mesh": mesh, "reason": str(error)})
     return Result({"meshes": done, "failures": failures}, 2 if failures else 0)
+
+
+def sources_on(
+    options: argparse.Namespace,
+    surface: "Surface",
+    distance: "Callable[[], Distance]",
+    progress: Progress | None = None,
+) -> "Chosen":
+    """Return the sources of `--sources` on the surface of the command's mesh, the highest vertex by default.
+
+    `distance` returns the one by which points are farthest.
+    """
+    return sources_of_mesh(options.sources or HIGHEST, options.mesh, surface, distance, progress)
+
+
+def sources_of_mesh(
+    asked: Sources,
+    mesh: str,
+    surface: "Surface",
+    distance: "Callable[[], Distance]",
+    progress: Progress | None = None,
+) -> "Chosen":
+    """Return the sources on the surface of a mesh, and tell how far the points of a file had to be moved."""
+    from ..session.chosen_sources import chosen_sources
+
+    name = os.path.splitext(os.path.basename(mesh))[0]
+    found = chosen_sources(asked, surface, distance, name, progress=progress)
+    if found.pins is not None:
+        noun = "position" if asked.file.startswith(POSITION) else "pin"
+        tell_moved(found.path, noun, found.pins, found.pins.ids.tolist(), surface)
+    return found
+
+
+def sources_of_document(
+    asked: Sources | None,
+    mesh: str,
+    shows: Sequence[Spec | Quantity],
+    areas: str | None,
+    repairs: Repairs,
+    progress: Progress | None = None,
+) -> list[Source]:
+    """Return the sources on the mesh of a document that is still to be opened, [] if none are named.
+
+    Points are farthest by the first distance of `shows`; `areas` and `repairs` say how the mesh is taken.
+    """
+    if asked is None or asked.rule == LISTED:
+        # Whoever opens the document looks where they are.
+        return [] if asked is None else [*asked.members]
+    from bihdist_core import Laplacian
+    from bihdist_core.distances.answers import Distances
+
+    from ..session.repaired_surface import read_repaired
+
+    surface = read_repaired(found_mesh(mesh), repairs)
+    spec = first_spec(shows)
+    distances = Distances(Laplacian(surface, areas or "voronoi", repairs.operator))
+    return sources_of_mesh(asked, mesh, surface, lambda: distances.get(spec, progress), progress).sources
+
+
+def sources_of_two(asked: Sources | None, found: list[Source], other: str) -> tuple[list[Source], Source | None]:
+    """Return the sources on the first mesh as one for it and one for the second, None for the highest vertex.
+
+    Raises ParameterError for more than two, and for a second one by a rule or a file, which are of the first mesh.
+    """
+    if len(found) > 2 or (asked is not None and asked.rule != LISTED and len(found) > 1):
+        raise ParameterError(
+            f"Two meshes have a source each, and --sources names {len(found):,} of the first; write one of each with a "
+            "comma, such as 12,40."
+        )
+    if len(found) == 1:
+        tell(
+            f"--sources names one of the first mesh, and {other} starts from its highest vertex; one of each is named "
+            f"as {short_words_of(found[0])},40."
+        )
+    return found[:1], found[1] if len(found) > 1 else None
+
+
+def first_spec(shows: Sequence[Spec | Quantity]) -> Spec:
+    """Return the first distance of what is shown, or the usual one."""
+    specs = (spec for each in shows for spec in ((each,) if isinstance(each, Spec) else each.specs))
+    return next(specs, COMPARISON[0])
+
+
+def one_source(sources: list[Source]) -> Source | None:
+    """Return the only source, None if there is none; ParameterError for several."""
+    from ..session.chosen_sources import Chosen
+
+    return Chosen(sources).one() if sources else None

@@ -5,11 +5,10 @@ import os
 
 from bihdist_core.errors import ParameterError
 
-from .figure_options import add_figure_options, chosen_recipe
+from .figure import add_figure_options, chosen_recipe
 from .mesh import usual_output, write_ids_of
 from .options import add_workers
-from .result import Result, panel_facts
-from .terminal import progress_line, report_answers
+from .terminal import Result, panel_facts, progress_line, report_answers
 
 WORDS = "draw a figure that turns, whose source moves or whose parameter changes, as MP4, WebM, GIF or PNG frames"
 EXAMPLES = (

@@ -9,11 +9,11 @@ from urllib.parse import quote
 from bihdist_core.counts import counted
 from bihdist_core.formats.mesh_names import mesh_name
 
+from ..document.document import usual_specs
 from ..web.options import USUAL, other_names, page_rows
-from .figure_options import add_recipe, chosen_recipe
+from .figure import add_recipe, chosen_recipe
 from .options import MESH, add_distance, add_output, add_rows, add_sources, count
-from .result import Facts, Result
-from .terminal import progress_line, tell
+from .terminal import Facts, Result, progress_line, tell
 
 if TYPE_CHECKING:
     from ..web.export import Page
@@ -58,8 +58,9 @@ def run(options: argparse.Namespace) -> Result:
     from ..web.export import size_words, write_page
     from ..web.html_file import embed_code
 
-    if options.distance is None and options.recipe is None:
-        options.distance = [*USUAL, *(field.name for field in options.fields or ())]
+    if options.distance is None and options.recipe is None and options.mesh:
+        usual = usual_specs(options.mesh)[: len(USUAL)]
+        options.distance = [*map(str, usual), *(field.name for field in options.fields or ())]
     recipe = chosen_recipe(options)
     path = options.output or f"{mesh_name(recipe.document.surfaces[0].path)}.html"
     with progress_line() as progress:
@@ -77,11 +78,13 @@ def run(options: argparse.Namespace) -> Result:
     mesh, source = page.scene["mesh"], page.scene["source"]
     kept = "single precision" if options.bits == "float32" else f"{options.bits} bits of each coordinate"
     print(f"{path}: {size_words(size)}, opened by any browser, without a network")
-    print(f"{mesh['name']}: {mesh['vertices']:,} vertices with {kept}; {'; '.join(page.labels)}; from {source}")
+    what, count = next(iter(mesh["counts"].items()))
+    print(f"{mesh['name']}: {count:,} {what} with {kept}; {'; '.join(page.labels)}; from {source}")
     compared = mesh["sources"]
-    if contents.fields:
+    measured = {name: spec for name, spec in contents.fields.items() if str(spec) in page.differs}
+    if measured:
         words = f"from {counted(compared, 'source')} distances equal those on the original mesh within"
-        print(f"{words} {_differences(page, map(str, contents.fields.values()))}; from others they may differ more")
+        print(f"{words} {_differences(page, map(str, measured.values()))}; from others they may differ more")
     if contents.own:
         print(f"fields equal those given within {_differences(page, (own.word for own in contents.own))}")
     print(f"to embed it: {embed_code(quote(os.path.basename(path)), page.scene['title'])}")
@@ -92,7 +95,7 @@ def run(options: argparse.Namespace) -> Result:
             "difference_sources": compared,
             "n_eigenpairs": page.eigenpairs.get(name, 0),
         }
-        for name, spec in contents.fields.items()
+        for name, spec in measured.items()
     ]
     distances += [
         {"distance": own.word, "difference": page.differs[own.word], "difference_sources": None, "n_eigenpairs": 0}
@@ -102,8 +105,8 @@ def run(options: argparse.Namespace) -> Result:
         "meshes": [{"mesh": each.path} for each in recipe.document.surfaces],
         "outputs": [path],
         "bytes": size,
-        "n_vertices": mesh["vertices"],
-        "n_faces": mesh["faces"],
+        "n_vertices": count,
+        "n_faces": mesh["counts"].get("faces", 0),
         "precision": options.bits,
         "source": source,
         "panels": [{"label": label} for label in page.labels],

@@ -11,8 +11,16 @@ from bihdist_core.errors import BihdistError, ParameterError
 from ..document.repairs import NAME
 from ..document.sources import ALL, Sources
 from ..version import version
-from .mesh import add_meshes, check_array_output, found_mesh, into_each, name_output, read_laplacian
-from .mesh_sources import sources_of_mesh, sources_on
+from .mesh import (
+    add_meshes,
+    check_array_output,
+    found_mesh,
+    into_each,
+    name_output,
+    read_laplacian,
+    sources_of_mesh,
+    sources_on,
+)
 from .options import (
     DTYPES,
     NEIGHBOURS,
@@ -27,8 +35,7 @@ from .options import (
     positive,
     specs,
 )
-from .result import Facts, Result, distance_facts
-from .terminal import accuracy, progress_line, tell, tell_failure
+from .terminal import Facts, Result, accuracy, distance_facts, progress_line, tell, tell_failure
 
 if TYPE_CHECKING:
     from bihdist_core.analysis.all_pairs import Begun, Rows

@@ -11,8 +11,7 @@ from ..figures.view_options import UP, up_meaning
 from .batch import engine_of, task_progress
 from .mesh import found_mesh
 from .options import add_dask, add_output, add_rows, add_workers
-from .result import Result
-from .terminal import progress_line, tell_failure
+from .terminal import Result, progress_line, tell_failure
 
 WORDS = "recompute every figure and table of the paper, as one page"
 EXAMPLES = (

@@ -1,15 +1,17 @@
-"""The messages of a command beside its result: progress, repairs, accuracy and failures."""
+"""The result of a command, as plain values, and its messages: progress, repairs, accuracy and failures."""
 
 import argparse
 import io
+import json
+import math
 import os
 import sys
 import threading
 import time
 import warnings
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, nullcontext, redirect_stdout, suppress
-from dataclasses import dataclass, field
+from dataclasses import asdict, dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from bihdist_core.counts import counted
@@ -18,6 +20,7 @@ from bihdist_core.expected_time import duration_in
 from bihdist_core.progress import Progress
 
 from ..session.time_left import TimeLeft
+from ..version import version
 
 if TYPE_CHECKING:
     from bihdist_core import Distance, Surface
@@ -276,3 +279,67 @@ def tell_moved(path: str, noun: str, found: "Pins | Anchors", names: Sequence[ob
             f"{path}: {counted(len(far), noun)} moved to a vertex; the farthest, {name}, by "
             f"{moved[most]:.3g} ({moved[most] / size:.2%} of the mesh's size)."
         )
+
+
+Facts = dict[str, Any]
+
+
+@dataclass(frozen=True)
+class Result:
+    """Facts by names in snake_case, those of the library's attributes where it has them; NumPy arrays may be among
+    them.
+
+    With `ends_process` the process ends at once when they have been printed.
+    """
+
+    facts: Facts = field(default_factory=dict)
+    status: int = 0
+    ends_process: bool = False
+
+
+def as_json(command: str, status: int, facts: Mapping[str, Any]) -> str:
+    """Return one JSON object in ASCII, which any standard output takes."""
+    about = {"command": command, "version": version(), "exit_status": status}
+    return json.dumps({**about, **_plain(facts)}, indent=2, allow_nan=False)
+
+
+def _plain(value: Any) -> Any:
+    """Return a value for JSON, with null for numbers that are not finite."""
+    if isinstance(value, Mapping):
+        return {str(name): _plain(each) for name, each in value.items()}
+    if isinstance(value, list | tuple):
+        return [_plain(each) for each in value]
+    if hasattr(value, "tolist"):  # of NumPy
+        return _plain(value.tolist())
+    return None if isinstance(value, float) and not math.isfinite(value) else value
+
+
+def distance_facts(distance: "Distance", spec: object, everywhere: bool = False) -> Facts:
+    """Return the facts about a distance that was asked for as `spec`.
+
+    With `everywhere` its accuracy is that on all components, also on those not asked about.
+    """
+    estimate = distance.error_estimate(range(distance.surface.n_components) if everywhere else None)
+    return {"distance": str(spec), "label": distance.label, "unit": distance.unit, **accuracy_facts(estimate)}
+
+
+def accuracy_facts(estimate: "ErrorEstimate") -> Facts:
+    """Return the accuracy as a fraction of the maximum, in words, and from how many vertices it was measured."""
+    return {"accuracy": estimate.share, "accuracy_text": estimate.text, "accuracy_sources": estimate.sources}
+
+
+def panel_facts(shows: object, answer: "Answer") -> Facts:
+    """Return the facts about a field that is drawn, with its failure in words, or ""."""
+    return {
+        "distance": str(shows),
+        "label": answer.label,
+        "unit": answer.unit,
+        "maximum": answer.maximum,
+        **accuracy_facts(answer.accuracy),
+        "failure": answer.failure,
+    }
+
+
+def facts_of(record: Any, *names: str) -> Facts:
+    """Return some attributes of a result of the library, or all fields of a dataclass."""
+    return {name: getattr(record, name) for name in names} if names else asdict(record)

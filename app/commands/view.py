@@ -14,8 +14,7 @@ from ..figures.look_options import COLOURS, OPACITY
 from ..figures.options import VERTEX_AREAS, tool_rows, with_rows
 from ..figures.repair_options import MERGE, REPAIRS
 from ..figures.view_options import CLIP, UP, up_meaning
-from .mesh import found_mesh
-from .mesh_sources import one_source, sources_of_document, sources_of_two
+from .mesh import found_mesh, one_source, sources_of_document, sources_of_two
 from .options import (
     PANELS,
     add_distance,
@@ -27,7 +26,7 @@ from .options import (
     quantities,
     repairs_of,
 )
-from .result import Result
+from .terminal import Result
 
 WORDS = "open the viewer"
 EXAMPLES = (

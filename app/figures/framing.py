@@ -18,7 +18,7 @@ from ..scene.clipping import clip_plane
 from ..scene.drawable import bounds_of, rise, warp_by_scalar
 from .description import FigurePanel
 from .hidden_lines import cut_faces
-from .shadows import FRAMED, ground_around
+from .shadows import shadow_edge
 
 FREE = 0.03
 """The share of a view left free along each side."""
@@ -113,7 +113,7 @@ def _used(surface: Surface) -> FloatArray:
 def _framed(panel: FigurePanel, surface: Surface) -> FloatArray:
     """Return the points that have room in a picture: corners of what is left of faces, and the ground about them."""
     used = _used(surface)
-    about = ground_around(used, panel.up, FRAMED) if has_ground(panel) else np.empty((0, 3))
+    about = shadow_edge(used, panel.up) if has_ground(panel) else np.empty((0, 3))
     plane = clip_plane(panel.clip, panel.surface if panel.parts else surface)
     if plane is not None:
         x, faces = surface.shape.vertices, surface.shape.faces

@@ -9,7 +9,7 @@ from bihdist_core.distances.answers import Answer
 
 from ..drawing.glyphs import SWATCH, glyph_shapes
 from ..drawing.shapes import Shape
-from ..marks.field_marks import label_rows
+from ..marks.marked_panel import label_rows
 from ..marks.primitives import PointMark
 from .description import Entry, Figure
 from .page_layout import ComposedPage, PageLayout

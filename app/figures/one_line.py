@@ -17,10 +17,9 @@ from bihdist_core.sources.words import EMPTY
 
 from ..document.derived_surfaces import COLUMNS
 from ..document.document import from_points, usual_specs
-from ..document.option import NotExpressible, Option, Row, with_attribute
+from ..document.option import NotExpressible, Option, Row, Starts, as_argument, with_attribute
 from ..document.page import Recipe
 from ..document.quantities import Quantity, from_point, own_fields
-from ..document.starts import Starts, as_argument
 from ..samples import mesh_path
 from .options import made_from, rows, rows_of_sources
 

@@ -44,7 +44,7 @@ class RenderWindow:
         from vtkmodules.vtkRenderingCore import vtkRenderer
 
         from ..scene.field_actor import FieldActor, light
-        from ..scene.render_window import offscreen_window
+        from ..scene.offscreen_renderer import offscreen_window
 
         self._finer, self._samples = finer, samples
         self._window = offscreen_window()

@@ -52,6 +52,16 @@ def ground_around(points: FloatArray, up: str, reach: float) -> FloatArray:
     return floor + np.array([[ends[i, 0], ends[j, 1]] for i, j in ((0, 0), (1, 0), (1, 1), (0, 1))]) @ across
 
 
+def shadow_edge(points: FloatArray, up: str) -> FloatArray:
+    """Return places (32, 3) all around the ground beneath points (n, 3), where its shadow has faded away."""
+    a, b, c, d = ground_around(points, up, FRAMED)
+    turn = np.linspace(0, 2 * np.pi, 32, endpoint=False)
+    way = np.stack([np.cos(turn), np.sin(turn)], 1)
+    way /= (way**4).sum(axis=1, keepdims=True) ** 0.25
+    edge: FloatArray = (a + c) / 2 + way @ np.stack([b - a, d - a]) / 2
+    return edge
+
+
 class Shadows:
     """The shadows of a surface as a camera sees them.
 

@@ -19,7 +19,7 @@ from bihdist_core.tetrahedra import SolidBoundary
 
 from ..document.document import isolines_in
 from ..document.looks import Isolines, Shading
-from ..drawing.line_looks import FEATURE_EDGES, SECTION, LineLook
+from ..drawing.glyphs import FEATURE_EDGES, SECTION, LineLook
 from ..drawing.shapes import Box
 from ..marks.primitives import PointMark
 from ..scene.bands import band_edges

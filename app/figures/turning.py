@@ -13,7 +13,7 @@ from bihdist_core.arrays import FloatArray
 from ..document.camera import Camera, View
 from ..scene.camera import VIEW_ANGLE, Projection, directions, outwards_at, standard_camera, turned
 from ..scene.drawable import bounds_of, rise
-from ..scene.face_blocks import FaceBlocks
+from ..scene.picking import FaceBlocks
 from .description import Figure
 from .grid import grid_of
 from .layout import lay_out

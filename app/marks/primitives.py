@@ -8,8 +8,7 @@ import numpy as np
 from bihdist_core.arrays import FloatArray, IntArray
 from bihdist_core.counts import counted
 
-from ..drawing.glyphs import DISC, Glyph
-from ..drawing.line_looks import SOURCE, LineLook
+from ..drawing.glyphs import DISC, SOURCE, Glyph, LineLook
 
 
 @dataclass(frozen=True)

@@ -19,7 +19,7 @@ from ..figures.framing import seen
 from ..figures.size import Size
 from ..marks.primitives import PointMark
 from ..scene.camera import directions, outwards_at
-from ..scene.face_blocks import FaceBlocks
+from ..scene.picking import FaceBlocks
 from ..scene.style import PAPER
 
 ACROSS, ACROSS_NARROW = {1: 4, 2: 3}, {1: 6, 2: 3}

@@ -8,8 +8,6 @@ from typing import TYPE_CHECKING
 
 from qtpy import QtCore, QtWidgets
 
-from bihdist_core import ParameterError
-
 from ..document.camera import ANATOMICAL, SAME_VIEWS
 from ..document.document import Document
 from ..document.on_surface import SOURCE, SurfaceItem, by_products, clear_surface, remove_items, surface_items
@@ -33,7 +31,7 @@ from .views import Views
 
 VIEWS = ("front", "back", "left", "right", "top", "bottom", "source")
 VIEW_TEXTS = {"right": "Ri&ght", "bottom": "Botto&m", "source": "From the &source"}
-"""Where not the first letter is the key in a menu."""
+"""Menu texts of views whose access key is not the first letter."""
 
 BRAIN_VIEWS = ANATOMICAL[:6]
 BRAIN_SYNONYMS = {new: old for old, new in SAME_VIEWS.items()}
@@ -110,10 +108,8 @@ def _on_view(method: str, *numbers: float) -> Callable[[Context], object]:
 
 
 def _see_from(name: str, context: Context) -> None:
-    try:
+    with context.errors_shown():  # a side of which hemisphere?
         context[Views].reset(name)
-    except ParameterError as error:  # a side of which hemisphere?
-        context.fail(error)
 
 
 def _edit_panel(word: str, context: Context) -> None:

@@ -1,18 +1,16 @@
 """The base class of a tool's gestures: what the mouse and some keys do on the panels."""
 
-from typing import TYPE_CHECKING, ClassVar
+from typing import ClassVar
 
 from qtpy import QtCore, QtWidgets
 
 from ..document.document import Document
+from ..scene.picking import Hit
 from .context import Context
-
-if TYPE_CHECKING:
-    from ..scene.picking import Hit
-    from .panels.events import Click
+from .panels.events import Click
 
 FIRST, LAST = -1, 1
-"""Of the gestures of tools, when they are asked whether something is meant for them."""
+"""The turns of gestures that are asked before, and after, those of tools whether an event is meant for them."""
 
 
 class Gesture(QtCore.QObject):
@@ -50,29 +48,29 @@ class Gesture(QtCore.QObject):
         """Start on another surface."""
 
     # ------------------------------------------------------------------ the mouse
-    def takes(self, panel: int, click: "Click") -> bool:
+    def takes(self, panel: int, click: Click) -> bool:
         """Return whether a click is meant for the tool."""
         return click.is_plain and self.is_on(panel)
 
-    def click(self, panel: int, click: "Click") -> None:
+    def click(self, panel: int, click: Click) -> None:
         """Handle a click on a surface."""
 
     def click_mark(self, panel: int, number: int, has_ctrl: bool) -> None:
         """Handle a click on one of the tool's pin markers."""
 
-    def drag(self, panel: int, number: int, hit: "Hit") -> None:
+    def drag(self, panel: int, number: int, hit: Hit) -> None:
         """Handle a drag of one of the tool's pin markers, or of the source's marks, to a place."""
 
     def release(self) -> None:
         """End a drag, or a source's way after the pointer."""
 
-    def follow(self, panel: int, hit: "Hit") -> None:
+    def follow(self, panel: int, hit: Hit) -> None:
         """Move what the tool moves to where the pointer is."""
 
-    def offer(self, menu: QtWidgets.QMenu, panel: int, hit: "Hit") -> None:
+    def offer(self, menu: QtWidgets.QMenu, panel: int, hit: Hit) -> None:
         """Add entries to the menu of a place, where the tool is on."""
 
-    def offer_always(self, menu: QtWidgets.QMenu, panel: int, hit: "Hit | None", where: QtCore.QPoint) -> None:
+    def offer_always(self, menu: QtWidgets.QMenu, panel: int, hit: Hit | None, where: QtCore.QPoint) -> None:
         """Add entries whatever tool is on, also beside the surface; `where` is on the screen."""
 
     # ------------------------------------------------------------------ the keys

@@ -1,24 +1,19 @@
 """Gestures on the panels: each event goes to the gesture of the tool that is on."""
 
-from typing import TYPE_CHECKING
-
 from qtpy import QtCore, QtWidgets
 
 from ..document.document import Document, content
 from ..document.tools import tools
 from ..drawing.numbers import coordinates
+from ..scene.picking import Hit
+from .choices import IsolineChoices
 from .context import Context
 from .dragging import Dragging
-from .files.field_files import FieldFiles
-from .files.isoline_files import save_isolines
+from .files.field_files import FieldFiles, save_isolines
 from .gesture import Gesture
 from .held_keys import HeldKeys
-from .isoline_choices import IsolineChoices
 from .panels.events import Click, Hover, MarkClick, MarkDrag, MarkRelease, MenuWanted, SecondClick
 from .snapping import Snapping
-
-if TYPE_CHECKING:
-    from ..scene.picking import Hit
 
 CLOSER = 2.0
 """By how much "zoom in here" enlarges."""
@@ -135,7 +130,7 @@ class Gestures(QtCore.QObject):
         """The vertex under the pointer."""
         return None if self._context.hit is None else self._context.hit.vertex
 
-    def _hover(self, panel: int, hit: "Hit | None") -> None:
+    def _hover(self, panel: int, hit: Hit | None) -> None:
         context, pointing = self._context, self._grid.pointing
         before, last, last_in = self.hovered, context.hit, context.hit_in
         context.hit, context.hit_in = hit, panel
@@ -173,7 +168,7 @@ class Gestures(QtCore.QObject):
         if self._context.hit is not None:
             self._zoom_to(self._context.hit_in, self._context.hit)
 
-    def _zoom_to(self, panel: int, hit: "Hit") -> None:
+    def _zoom_to(self, panel: int, hit: Hit) -> None:
         view = self._grid.panel(panel).view
         view.centre(hit.position)
         view.zoom(CLOSER)
@@ -199,7 +194,7 @@ class Gestures(QtCore.QObject):
         menu.aboutToHide.connect(menu.deleteLater)
         menu.popup(wanted.where)
 
-    def _offer_place(self, menu: QtWidgets.QMenu, panel: int, hit: "Hit") -> None:
+    def _offer_place(self, menu: QtWidgets.QMenu, panel: int, hit: Hit) -> None:
         context, view, vertex = self._context, self._grid.panel(panel).view, hit.vertex
         isolines = context[IsolineChoices]
         menu.addAction("Isoline through here", lambda: isolines.pass_through(panel, vertex))

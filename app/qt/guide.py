@@ -14,7 +14,7 @@ from .context import Context
 from .pages.messages import tell
 
 if TYPE_CHECKING:
-    from .pages.commands import Command
+    from .pages.palette import Command
 
 ABOUT = (
     "Exact biharmonic distances, with geodesic and diffusion distances beside them, after Lipman, Rustamov and "
@@ -31,7 +31,7 @@ class Guide:
 
     def commands(self) -> "list[Command]":
         """Return the commands of the menus and those of the active panel."""
-        from .pages.commands import commands_of
+        from .pages.palette import commands_of
 
         context = self._context
         menus = [("", action.menu()) for action in context.widget.menuBar().actions() if action.menu() is not None]
@@ -41,8 +41,7 @@ class Guide:
 
     def show_commands(self) -> None:
         """Open the list of all commands and gestures."""
-        from .pages.commands import GESTURES
-        from .pages.palette import Palette
+        from .pages.palette import GESTURES, Palette
 
         Palette([*self.commands(), *GESTURES], self._recent, self._context.widget).open()
 

@@ -17,10 +17,9 @@ from ..document.page import Recipe
 from ..drawing.numbers import coordinates
 from ..drawing.painters.qt import number_width, paint_number
 from ..scene.style import Style
+from .look.form import in_row
 from .look.icons import pixmap
-from .look.layouts import in_row
-from .look.look import LOOK
-from .look.painting import paint_rounded, smooth_painter
+from .look.look import LOOK, paint_rounded, smooth_painter
 
 HEIGHT = 28
 SAID_MS = 8000

@@ -4,8 +4,6 @@ from typing import TYPE_CHECKING
 
 from qtpy import QtCore, QtWidgets
 
-from bihdist_core import BihdistError
-
 from ..document.camera import Camera, View
 from ..document.camera_text import camera_text, read_camera
 from ..document.document import Document
@@ -18,7 +16,7 @@ if TYPE_CHECKING:
     from .panels.camera_controller import CameraController
 
 Cameras = tuple[tuple[str, View], ...]
-"""From where each surface is seen, by its name in the document."""
+"""The view of each surface, by its name in the document."""
 
 STILL_MS = 500
 """When the camera has not moved for so long, what is seen is a view that one can come back to."""
@@ -137,7 +135,7 @@ class Views(QtCore.QObject):
 
     @property
     def _surface(self) -> str:
-        """That of the active panel, by its name in the document; before there are panels the first."""
+        """The name of the active panel's surface, or of the first one before there are panels."""
         document = self._context.document
         if self._context.is_built:
             return self._active_controller.surface
@@ -160,17 +158,12 @@ class Views(QtCore.QObject):
     # ------------------------------------------------------------------ the camera as text
     def copy(self) -> None:
         """Copy the camera to the clipboard."""
-        QtWidgets.QApplication.clipboard().setText(camera_text(self._active_controller.seen))
-        self._context.tell("The camera is on the clipboard")
+        self._context.copy(camera_text(self._active_controller.seen), "The camera is on the clipboard")
 
     def paste(self) -> None:
         """Look from where the camera on the clipboard looks, or say what there is instead."""
-        try:
-            view = read_camera(QtWidgets.QApplication.clipboard().text())
-        except BihdistError as error:
-            self._context.fail(error)
-        else:
-            self.set_view(view)
+        with self._context.errors_shown():
+            self.set_view(read_camera(QtWidgets.QApplication.clipboard().text()))
 
     # ------------------------------------------------------------------ where one has been
     def _remember(self) -> None:

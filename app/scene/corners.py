@@ -77,7 +77,7 @@ def chosen_corners(
                 name: cover(box, surface)
                 + _meetings(box, taken)
                 + 2 * inside(marks, box).sum()
-                # PairwiseDistances corners that hide alike, the nearest.
+                # Of corners that hide alike, the nearest.
                 + NEAR * np.nan_to_num(np.abs(np.subtract(box, source)).max()) / wide
                 for name, box in boxes.items()
             }

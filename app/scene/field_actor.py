@@ -14,7 +14,7 @@ from bihdist_core.analysis.label_borders import label_weights
 from bihdist_core.arrays import AnyArray, ByteArray, FloatArray, IntArray
 
 from ..document.looks import MOST_ISOLINES, NO_LINES, TWENTY_STEPS, Isolines, Shading
-from ..drawing.line_looks import SECTION
+from ..drawing.glyphs import SECTION
 from ..session.base import Greys
 from .clipping import ClipPlane, Cut
 from .drawable import copies_of, has_backs, vertex_faces, with_cut
@@ -48,7 +48,7 @@ MOST_PEELS = 8
 """Each of them has two layers of what is translucent, the nearest and the farthest that are left."""
 
 MOST_LINES = 2 * MOST_ISOLINES + 64
-"""That the shader has room for: on both sides of 0, and through points."""
+"""Lines that the shader has room for: on both sides of 0, and through points."""
 
 # Values are in order.  Of the two lines nearest in value, one below and one above, the wider is painted last.
 _PAINT = """

@@ -11,8 +11,7 @@ from bihdist_core.errors import ParameterError
 from ..document.looks import OF_THE_STYLE, Colours, Stops
 from ..drawing.shapes import RGBA, opaque
 from . import colour_maps
-from .colour_maps import MAPS, backwards, colours_at, goes_both_ways, lightened
-from .oklab import oklab
+from .colour_maps import MAPS, backwards, colours_at, goes_both_ways, lightened, oklab
 
 Colour = tuple[float, float, float]
 

@@ -1,7 +1,7 @@
-"""The sources that are asked for, on a surface: those that are listed, chosen by a rule, or read from a file."""
+"""The sources that are asked for, on a surface: listed, chosen by a rule (also in the background), or from a file."""
 
 import warnings
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
@@ -12,7 +12,7 @@ import numpy as np
 from bihdist_core import Distance, Laplacian, Surface
 from bihdist_core.analysis.sampling import farthest_points, starts_of
 from bihdist_core.analysis.upright import guess_up
-from bihdist_core.arrays import BoolArray
+from bihdist_core.arrays import BoolArray, IntArray
 from bihdist_core.distances.answers import Distances
 from bihdist_core.distances.distance_types import Spec
 from bihdist_core.errors import LandmarkWarning, ParameterError
@@ -22,7 +22,7 @@ from bihdist_core.formats.mesh_names import mesh_format, mesh_name
 from bihdist_core.formats.pins import Pins, picked_from, pins_format, placed
 from bihdist_core.formats.vertex_values import is_vertex_values, read_label_vertices
 from bihdist_core.formats.whole_numbers import numbered_lines, read_whole_numbers
-from bihdist_core.progress import Progress
+from bihdist_core.progress import Progress, part
 from bihdist_core.sources.pieces import pieces_of
 from bihdist_core.sources.source import Source
 from bihdist_core.sources.words import short_words_of, source_from_words
@@ -31,6 +31,7 @@ from ..document.document import MeshFile
 from ..document.lists import split_list
 from ..document.sources import ALL, FARTHEST, FILE, LISTED, Sources
 from ..samples import mesh_path
+from .loaded_mesh import LoadedMesh
 from .questions import first_source
 from .repaired_surface import read_repaired
 
@@ -193,3 +194,21 @@ def _read(path: str, text: str, surface: Surface) -> Chosen:
     if not found:
         raise ParameterError(f"{path} names no source.")
     return Chosen(found, path=path)
+
+
+@dataclass(frozen=True, eq=False)
+class SamplesRequest:
+    """A request for a number of vertices from a source, each the farthest from those before it by a distance."""
+
+    loaded: LoadedMesh
+    areas: str
+    spec: Spec
+    at: Source
+    count: int
+
+
+def find_samples(request: SamplesRequest, progress: Progress) -> Iterator[IntArray]:
+    """Yield the vertices (count,) of a request; VertexError or ParameterError for a source that is not on vertices."""
+    starts = starts_of(request.at, request.loaded.surface)
+    distance = request.loaded.distances(request.areas).get(request.spec, part(progress, 0, 0.5))
+    yield farthest_points(distance, starts, request.count, part(progress, 0.5, 1))

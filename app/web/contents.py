@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
 
+from bihdist_core.counts import counted
 from bihdist_core.distances.distance_types import BUILT_IN, Spec
 from bihdist_core.errors import ParameterError
 from bihdist_core.sentences import with_and
@@ -44,9 +45,6 @@ class Contents:
             raise ParameterError(
                 f"A page that computes has one mesh, and here are {len(document.surfaces)}; make a page of each."
             )
-        operator = document.surfaces[0].repairs.operator
-        if operator != "cotan":
-            raise ParameterError(f"A page computes by the faces of a mesh; leave out the operator {operator}.")
         for number, panel in enumerate(document.panels, 1):
             _check_panel(document, panel, f"Panel {number} ({panel.shows})")
         _check_source(document)
@@ -59,6 +57,18 @@ class Contents:
         if isinstance(shows, OwnField):
             return shows.word
         return next(name for name, each in self.fields.items() if (each,) == shows.specs)
+
+    def without_geodesic(self, name: str) -> tuple[Contents, list[str]]:
+        """Return the contents on a mesh of this name without faces, and a sentence on panels that need them."""
+        panels = self.document.panels
+        kept = tuple(panel for panel in panels if all(spec.word != "geodesic" for spec in panel.shows.specs))
+        if not kept:
+            raise ParameterError(f"{name}: geodesic distance needs faces, and there are none.")
+        if kept == panels:
+            return self, []
+        gone = counted(len(panels) - len(kept), "panel")
+        note = f"The page leaves out {gone} with geodesic distance: {name} has no faces."
+        return Contents.of(replace(self.document, panels=kept)), [note]
 
     @property
     def own(self) -> tuple[OwnField, ...]:

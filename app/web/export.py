@@ -3,25 +3,30 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
 
-from bihdist_core import BihdistError, Laplacian, ParameterError, Surface
+from bihdist_core import BihdistError, Laplacian, ParameterError, PointCloud, Surface, TetrahedralMesh
 from bihdist_core.arrays import FloatArray
 from bihdist_core.distances.answers import Answer, Distances
+from bihdist_core.distances.distance import unit_of
 from bihdist_core.distances.distance_types import BUILT_IN, Spec
 from bihdist_core.distances.spectral import SpectralDistance
 from bihdist_core.distances.unfolding_mesh import unfolding_mesh
 from bihdist_core.file_output import atomic_write, check_output
+from bihdist_core.formats.mesh_names import holds_points
 from bihdist_core.formats.vertex_count import announced_vertices
+from bihdist_core.intrinsic import COTAN, TUFTED
 from bihdist_core.progress import Progress, part
-from bihdist_core.surface import with_faces
+from bihdist_core.tetrahedra import SolidBoundary
 
-from ..document.document import MeshFile
+from ..document.document import Document, MeshFile
 from ..document.page import Recipe
+from ..document.repairs import OPERATORS
 from ..figures.export import compute, open_document
+from ..scene.clipping import clip_plane, cut_through
 from ..session.array_store import ArrayStore
 from ..session.loaded_mesh import LoadedMesh, checked_path
 from .contents import Contents
@@ -35,6 +40,9 @@ FORMATS = (".html",)
 
 MOST_VERTICES = 200_000
 """Largest mesh of a page; beyond it browsers run out of memory, or take minutes."""
+
+MOST_OF_SOLIDS = 50_000
+"""Of tetrahedra, whose factor takes a browser about a minute then."""
 
 SIMPLIFIED = 100_000
 
@@ -156,18 +164,25 @@ def page_of(
     document, surfaces = open_document(recipe, given or ArrayStore.read(recipe))
     contents = Contents.of(document)
     loaded = surfaces[document.surfaces[0].name]
-    if loaded.is_solid:
-        raise ParameterError(f"{loaded.surface.name}: pages cannot measure through tetrahedra.")
-    with_faces(loaded.surface, "pages")
-    check_size(loaded.surface.name, len(loaded.surface.vertices), loaded.mesh.path)
+    check_size(loaded.surface.name, len(loaded.surface.vertices), loaded.mesh.path, loaded.surface)
+    laplacian, left_out = loaded.distances(document.areas).laplacian, list[str]()
+    has_faces = len(laplacian.surface.faces) > 0
+    if not has_faces:
+        contents, left_out = contents.without_geodesic(loaded.surface.name)
     _check_eigenpairs(contents, len(loaded.surface.vertices), eigenpairs)
     recipe = replace(recipe, document=contents.document)
     answers = compute(contents.document, surfaces, part(progress, 0, 0.4))
-    mesh = StoredMesh.of(loaded.surface, precision)
+    is_of_faces = has_faces and laplacian.operator == COTAN
+    mesh = StoredMesh.of(loaded.surface, precision, None if is_of_faces else laplacian)
     _check_geodesic(contents, mesh)
-    distances = Distances(Laplacian(mesh.surface, document.areas))
-    differs = _differences(contents, loaded, mesh, distances, part(progress, 0.4, 1))
-    points = {name: StoredPoints.of(_spectral(distances, spec)) for name, spec in contents.by_eigenpairs.items()}
+    of_matrices = Distances(mesh.laplacian(document.areas))
+    of_faces = Distances(Laplacian(mesh.surface)) if has_faces else of_matrices
+
+    def on_page(spec: Spec) -> Distances:
+        return of_faces if spec.word == "geodesic" else of_matrices
+
+    differs = _differences(contents, loaded, mesh, on_page, part(progress, 0.4, 1))
+    points = {name: StoredPoints.of(_spectral(of_matrices, spec)) for name, spec in contents.by_eigenpairs.items()}
     room = 0 if eigenpairs is not None else EIGENPAIR_BYTES - sum(map(_stored_bytes, points.values()))
     for name, each in points.items():
         maximum = _maximum(loaded, document.areas, contents, name)
@@ -176,17 +191,50 @@ def page_of(
     own = {word: StoredField.of(values, mesh.ids) for word, values in fields.items()}
     differs |= {word: each.error for word, each in own.items()}
     backs = mesh.has_backs and document.opacity == 1 if document.clip is None else mesh.has_inside
-    stored = {"bits": 24 if precision == "24" else precision, "backs": backs, "differs": differs}
-    stored["sources"] = min(SOURCES, len(mesh.ids))
+    stored: Json = {"counts": _counts(loaded, mesh), "bits": 24 if precision == "24" else precision, "backs": backs}
+    stored |= {"differs": differs, "sources": min(SOURCES, len(mesh.ids))}
+    stored["operator"] = "" if is_of_faces else _operator_words(laplacian)
     scene = scene_of(recipe, contents, surfaces, answers, stored, credit)
     by_poles = {spec for spec in contents.fields.values() if spec.distance_type.on_pages == "poles"}
-    scene |= stored_functions(distances.laplacian, by_poles)
-    offered = _offered(contents, distances, scene["functions"], room)
+    scene["notes"] += left_out
+    scene["cut"] = _cut(loaded.surface, document, mesh)
+    scene |= stored_functions(of_matrices.laplacian, by_poles, laplacian)
+    offered = _offered(contents, on_page, laplacian, scene["functions"], room)
     named = contents.with_offered(spec for spec, *_ in offered)
     for name, (spec, label, unit, its_points) in zip(list(named)[len(contents.fields) :], offered, strict=True):
         scene["offered"].append(offered_panel(name, spec, label, unit, recipe.document.range))
         points |= {name: its_points} if its_points else {}
     return Page(scene, mesh, points, tuple(answer.label for answer in answers), differs, own)
+
+
+def _counts(loaded: LoadedMesh, mesh: StoredMesh) -> dict[str, int]:
+    """Return how many there are of what a page is made of, by names in the plural."""
+    surface, n = loaded.surface, len(mesh.ids)
+    if isinstance(surface, PointCloud):
+        return {"points": n}
+    if isinstance(surface, SolidBoundary):
+        return {"vertices": n, "tetrahedra": len(surface.tetrahedra)}
+    return {"vertices": n, "faces": len(surface.faces)}
+
+
+def _operator_words(laplacian: Laplacian) -> str:
+    """Return what the operator of a page is that is not by cotangents of faces."""
+    if isinstance(laplacian.surface, PointCloud):
+        return "Of points, by Sharp and Crane"
+    if isinstance(laplacian.surface, TetrahedralMesh):
+        return "Linear elements in tetrahedra"
+    areas = "Voronoi" if laplacian.areas_kind == "voronoi" else laplacian.areas_kind
+    return OPERATORS[laplacian.operator] + ("" if laplacian.operator == TUFTED else f", {areas} areas")
+
+
+def _cut(surface: Surface, document: Document, mesh: StoredMesh) -> Json | None:
+    """Return where the clip plane cuts a solid, with the numbers that vertices have in the page; None for no cut."""
+    cut = cut_through(surface, clip_plane(document.clip, surface))
+    if cut is None:
+        return None
+    ends = np.argsort(mesh.ids)[np.searchsorted(np.sort(mesh.ids), cut.ends)]
+    weights = np.round(cut.weights, 6).tolist()
+    return {"ends": ends.ravel().tolist(), "weights": weights, "faces": cut.faces.ravel().tolist()}
 
 
 def _values(own: Answer) -> FloatArray:
@@ -205,13 +253,16 @@ def _check_announced(mesh: MeshFile) -> None:
         check_size(os.path.basename(path), announced_vertices(path) or 0, mesh.path)
 
 
-def check_size(name: str, vertices: int, path: str = "") -> None:
+def check_size(name: str, vertices: int, path: str = "", surface: Surface | None = None) -> None:
     """Raise ParameterError for a mesh that is too large for a page, with what makes it smaller."""
-    if vertices > MOST_VERTICES:
-        raise ParameterError(
-            f"{name} has {vertices:,} vertices, and a page has up to {MOST_VERTICES:,}; make it "
-            f"smaller with: bihdist perturb {path or 'MESH'} --simplify {SIMPLIFIED} -o smaller.ply"
-        )
+    most, remedy = MOST_VERTICES, "make it smaller with: "
+    remedy += f"bihdist perturb {path or 'MESH'} --simplify {SIMPLIFIED} -o smaller.ply"
+    if isinstance(surface, SolidBoundary):
+        most, remedy = MOST_OF_SOLIDS, "take coarser tetrahedra"
+    elif isinstance(surface, PointCloud) or (path and holds_points(path)):
+        remedy = "join near points with --merge TOLERANCE"
+    if vertices > most:
+        raise ParameterError(f"{name} has {vertices:,} vertices, and a page has up to {most:,}; {remedy}")
 
 
 def needed_eigenpairs(contents: Contents) -> dict[str, int]:
@@ -229,10 +280,10 @@ def _stored_bytes(points: StoredPoints) -> int:
 
 
 def _offered(
-    contents: Contents, distances: Distances, functions: Json, room: int
+    contents: Contents, on_page: Callable[[Spec], Distances], original: Laplacian, functions: Json, room: int
 ) -> list[tuple[Spec, str, str, StoredPoints | None]]:
-    """Return the distances that readers can choose, each with its label and unit, and with its eigenpairs where these
-    fit into `room` bytes."""
+    """Return the distances that readers can choose, each with its label and its unit, which are those of the original
+    Laplacian, and with its eigenpairs where these fit into `room` bytes."""
     found: list[tuple[Spec, str, str, StoredPoints | None]] = []
     shown = {spec.word for spec in contents.fields.values() if spec.word in functions}  # with a slider
     for spec in OFFERED:
@@ -243,16 +294,19 @@ def _offered(
             step = next(each for each in functions[spec.word]["steps"] if each["value"] == value)
             found.append((spec, step["label"], step["unit"], None))
             continue
-        points = None
+        points, distances = None, on_page(spec)
+        stored = distances.laplacian.surface
         try:
             if spec.distance_type.on_pages == "eigenpairs":
-                if eigenpair_bytes(int(spec["k"]), len(distances.laplacian.surface.vertices)) > room:
+                if eigenpair_bytes(int(spec["k"]), len(stored.vertices)) > room:
                     continue
                 points = StoredPoints.of(_spectral(distances, spec))
-            elif spec.word == "geodesic" and unfolding_mesh(distances.laplacian.surface).has_degenerate_faces:
+            elif spec.word == "geodesic" and len(stored.faces) and unfolding_mesh(stored).has_degenerate_faces:
                 continue
             distance = distances.get(spec)
-            found.append((spec, distance.label, distance.unit, points))
+            unit = unit_of(distance.length_power - (original.surface.dimension - 2) / 2)
+            words = "" if spec.word == "geodesic" else original.operator_words
+            found.append((spec, distance.label + words, unit, points))
         except BihdistError:
             continue  # the mesh does not have this distance
     return found
@@ -281,14 +335,18 @@ def _check_geodesic(contents: Contents, mesh: StoredMesh) -> None:
 
 
 def _differences(
-    contents: Contents, loaded: LoadedMesh, mesh: StoredMesh, stored: Distances, progress: Progress | None
+    contents: Contents,
+    loaded: LoadedMesh,
+    mesh: StoredMesh,
+    on_page: Callable[[Spec], Distances],
+    progress: Progress | None,
 ) -> dict[str, float]:
     """Return the largest relative difference between the stored and the original mesh, by distance."""
     if not contents.fields:
         return {}
     original, n = loaded.distances(contents.document.areas), len(mesh.ids)
     (at,) = np.flatnonzero(mesh.ids == contents.source)
-    first, count = [int(at), *_where_rounding_shows(mesh.surface)], min(SOURCES, n)
+    first, count = [int(at), *_where_rounding_shows(mesh)], min(SOURCES, n)
     differs = {str(spec): 0.0 for spec in contents.fields.values()}
     for number, (name, spec) in enumerate(zip(differs, contents.fields.values(), strict=True)):
         # The next source is the vertex that differs most so far.
@@ -296,7 +354,7 @@ def _differences(
         for k in range(count):
             step = part(progress, (number + k / count) / len(differs), (number + (k + 1) / count) / len(differs))
             source = sources[k]
-            answers = original.answer(spec, int(mesh.ids[source]), step), stored.answer(spec, source, step)
+            answers = original.answer(spec, int(mesh.ids[source]), step), on_page(spec).answer(spec, source, step)
             a, b = (answer.field for answer in answers)
             if a is None or b is None:
                 raise ParameterError(next(answer.failure for answer in answers if answer.field is None))
@@ -309,8 +367,11 @@ def _differences(
     return differs
 
 
-def _where_rounding_shows(surface: Surface) -> tuple[int, int]:
-    """Return an end of the shortest edge and a corner of the flattest face."""
+def _where_rounding_shows(mesh: StoredMesh) -> tuple[int, ...]:
+    """Return an end of the shortest edge and a corner of the flattest face, where distances follow from these."""
+    if mesh.matrices:
+        return ()
+    surface = mesh.surface
     ends = surface.vertices[surface.edges]
     shortest = np.linalg.norm(ends[:, 0] - ends[:, 1], axis=1).argmin()
     return int(surface.edges[shortest, 0]), int(surface.faces[surface.face_heights.argmin(), 0])

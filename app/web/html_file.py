@@ -68,9 +68,13 @@ def packed_contents(
     mesh: StoredMesh, points: Mapping[str, StoredPoints], given: Mapping[str, StoredField]
 ) -> dict[str, bytes]:
     """Pack what the viewer inflates: the kernel, the mesh, points of spectral distances, and fields in order."""
+    more = {} if mesh.normals is None else {"normals": deflated(mesh.normals.tobytes())}
+    if mesh.matrices:
+        more |= {name: deflated(getattr(mesh.matrices, name).packed) for name in ("weights", "areas")}
     return {
         "kernel": deflated(KERNEL.read_bytes()),
         "mesh": deflated(mesh.packed),
+        **more,
         "given": deflated(b"".join(each.packed for each in given.values())),
         **{f"points-{name}": deflated(each.packed) for name, each in points.items()},
     }

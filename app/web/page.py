@@ -16,13 +16,12 @@ from ..figures.arguments import IsolineOptions, LayoutOptions, LookOptions, Mark
 from ..session.array_store import Mesh
 from .arguments import recipe_of
 from .export import Page, write_page
-from .options import USUAL
 
 
 def page(
     mesh: Mesh,
     path: str | os.PathLike[str],
-    distances: Sequence[str | Quantity] = USUAL,
+    distances: Sequence[str | Quantity] | None = None,
     source: Source | str | None = None,
     *,
     fields: Mapping[str, npt.ArrayLike | os.PathLike[str]] | None = None,
@@ -30,6 +29,7 @@ def page(
     cut: str = "",
     merge: float | None = None,
     largest_component: bool = False,
+    operator: str = "cotan",
     isolines: int | IsolineOptions = 20,
     look: LookOptions | None = None,
     view: ViewOptions | None = None,
@@ -49,8 +49,9 @@ def page(
         A file, the name of a sample, or the mesh itself.
     path : str or path
         The .html file.
-    distances : sequence of str
-        The distances, a panel each, such as ``"geodesic"`` or ``"biharmonic - commute-time"``.
+    distances : sequence of str, optional
+        The distances, a panel each, such as ``"geodesic"`` or ``"biharmonic - commute-time"``; by default biharmonic,
+        and geodesic, or commute-time where there are no faces.
     source : int, str or Source, optional
         Vertex that distances start from at first, by default the highest.
     fields : mapping of str to (n,) array_like or file, optional
@@ -63,6 +64,8 @@ def page(
         Merge vertices that are no farther apart.
     largest_component : bool
         Keep only the connected component with most vertices.
+    operator : {"cotan", "intrinsic-delaunay", "tufted"}
+        The operator, see `Laplacian`.
     isolines : int or IsolineOptions
         About how many isolines, at round values; or ``count``, ``equal``, ``spacing``, ``values`` and ``through``.
     look : LookOptions, optional
@@ -106,8 +109,8 @@ def page(
     >>> max(page.differs.values()) < 1e-6
     True
     """
-    own = {"areas": areas, "cut": cut, "merge": merge, "largest_component": largest_component, "isolines": isolines}
-    groups = {"look": look, "view": view, "marks": marks, "layout": layout}
+    own = {"areas": areas, "cut": cut, "merge": merge, "largest_component": largest_component, "operator": operator}
+    groups = {"isolines": isolines, "look": look, "view": view, "marks": marks, "layout": layout}
     recipe, given = recipe_of("page", mesh, distances, source, fields, {**own, **groups, **others}, progress)
     page, _ = write_page(recipe, path, given, precision, eigenpairs, progress, credit)
     return page

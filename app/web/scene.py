@@ -25,9 +25,8 @@ from ..document.on_surface import Hidden
 from ..document.page import Recipe
 from ..document.quantities import own_fields
 from ..document.shared_parts.pins import Pins
-from ..drawing.glyphs import DISC, PIN, SCREEN_NUMERAL, glyph_shapes
+from ..drawing.glyphs import DISC, PIN, SCREEN_NUMERAL, glyph_shapes, ring_shapes
 from ..drawing.painters.page import OWN, to_json
-from ..drawing.pointer import ring_shapes
 from ..drawing.shapes import RGBA, opaque
 from ..figures.description import Figure, FigurePanel
 from ..figures.export import Surfaces, figure_of
@@ -72,7 +71,8 @@ def scene_of(
     surfaces, answers
         The meshes by name, and the answers of the panels.
     stored : mapping
-        More about the mesh: `bits` of a coordinate; `backs`, whether its inside can be seen; `differs`, by how much
+        More about the mesh: `counts` of its vertices and faces; `operator`, what it is if not by cotangents of the
+        faces; `bits` of a coordinate; `backs`, whether its inside can be seen; `differs`, by how much
         each distance differs from that on the original, as a fraction of its maximum; `sources`, the number of sources
         for which that was computed.
     credit : str
@@ -104,8 +104,6 @@ def scene_of(
         "cite": bibtex(),
         "mesh": {
             "name": _text(surface.name),
-            "vertices": int((surface.component_of_vertex >= 0).sum()),
-            "faces": len(surface.faces),
             "unit": "mesh units",
             **stored,
         },

@@ -86,6 +86,11 @@ class StoredField:
         return cls(multiples, float(np.ldexp(1.0, exponent)), error / float(np.ldexp(largest, -exponent) or 1.0))
 
     @property
+    def values(self) -> FloatArray:
+        """The values (n,), as they were rounded."""
+        return self.multiples.astype(np.float64) * self.scale
+
+    @property
     def packed(self) -> bytes:
         """The scale, then the first bytes of all numbers, then the second bytes, and so on."""
         planes = self.multiples.astype("<f4").view(np.uint8).reshape(-1, 4).T

@@ -18,7 +18,6 @@ from ..session.array_store import Mesh
 from ..version import install_command
 from .arguments import recipe_of
 from .export import page_of
-from .options import USUAL
 
 if TYPE_CHECKING:
     from .distance_widget import DistanceWidget
@@ -26,7 +25,7 @@ if TYPE_CHECKING:
 
 def widget(
     mesh: Mesh,
-    distances: Sequence[str | Quantity] = USUAL,
+    distances: Sequence[str | Quantity] | None = None,
     source: Source | str | None = None,
     *,
     fields: Mapping[str, npt.ArrayLike | os.PathLike[str]] | None = None,
@@ -35,6 +34,7 @@ def widget(
     cut: str = "",
     merge: float | None = None,
     largest_component: bool = False,
+    operator: str = "cotan",
     isolines: int | IsolineOptions = 20,
     look: LookOptions | None = None,
     view: ViewOptions | None = None,
@@ -51,8 +51,9 @@ def widget(
     ----------
     mesh : str or MeshLike
         A file, the name of a sample, or the mesh itself.
-    distances : sequence of str
-        The distances, a panel each, such as ``"geodesic"`` or ``"biharmonic - commute-time"``.
+    distances : sequence of str, optional
+        The distances, a panel each, such as ``"geodesic"`` or ``"biharmonic - commute-time"``; by default biharmonic,
+        and geodesic, or commute-time where there are no faces.
     source : int, str or Source, optional
         Vertex that distances start from, by default the highest.
     fields : mapping of str to (n,) array_like or file, optional
@@ -67,6 +68,8 @@ def widget(
         Merge vertices that are no farther apart.
     largest_component : bool
         Keep only the connected component with most vertices.
+    operator : {"cotan", "intrinsic-delaunay", "tufted"}
+        The operator, see `Laplacian`.
     isolines : int or IsolineOptions
         About how many isolines, at round values; or ``count``, ``equal``, ``spacing``, ``values`` and ``through``.
     look : LookOptions, optional
@@ -111,8 +114,8 @@ def widget(
         from .distance_widget import DistanceWidget
     except ImportError:
         raise ParameterError(f"Widgets need the package anywidget: {install_command('anywidget')}") from None
-    own = {"areas": areas, "cut": cut, "merge": merge, "largest_component": largest_component, "isolines": isolines}
-    groups = {"look": look, "view": view, "marks": marks, "layout": layout}
+    own = {"areas": areas, "cut": cut, "merge": merge, "largest_component": largest_component, "operator": operator}
+    groups = {"isolines": isolines, "look": look, "view": view, "marks": marks, "layout": layout}
     recipe, given = recipe_of("widget", mesh, distances, source, fields, {**own, **groups, **others}, progress)
     made = DistanceWidget.of(page_of(recipe, given, precision, eigenpairs, progress))
     if on_pick is not None:

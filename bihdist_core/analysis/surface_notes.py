@@ -6,6 +6,7 @@ import numpy as np
 
 from ..counts import counted
 from ..surface import FLAT_RATIO, Surface
+from ..tetrahedra import SolidBoundary
 
 COARSE = 1e-4
 """Coordinates that are rounded by more than this fraction of the mean edge are warned of."""
@@ -54,6 +55,8 @@ def surface_notes(surface: Surface) -> SurfaceNotes:
         (len(surface.degenerate_faces), f"face {HELD}", f"faces {HELD}"),
         (parts if parts > 1 else 0, "", "components, with no distance from one to another (grey, NaN)"),
     ]
+    if isinstance(surface, SolidBoundary):  # distances run through its tetrahedra
+        facts, warnings = [], []
     sentences, warned = ([counted(*each) for each in some if each[0]] for some in (facts, warnings))
     step = coordinate_step(surface)
     if 0 < COARSE * surface.mean_edge_length < step:

@@ -278,6 +278,8 @@ _SIGNATURES: dict[str, tuple[Any, tuple[Any, ...]]] = {
     "voronoi_areas": (None, (_I, *(_A,) * 5)),
     "stiffness": (c_int64, (_I, _I, _A, _A, _A, _A, _A, _A)),
     "check_faces": (c_int32, (_I, _I, _A, _I, _A)),
+    "make_delaunay": (None, (_I, _I, *(_A,) * 8)),
+    "stars": (None, (_I, _I, _I, *(_A,) * 4)),
     "merge_points": (c_int64, (_I, _A, _I, _A, _A, _A)),
     "geodesic_mesh": (c_int64, (_P, _A, _A, _P, _A, _A, _A)),
     "geodesic_cells": (c_int32, (_P, _I, _I, _I)),

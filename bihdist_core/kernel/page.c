@@ -2,14 +2,14 @@
  * the end of its stack on.  An instance of the module is for one mesh.
  *
  * A page calls page_begin, fills in what page_array has of points and faces, calls page_measure, corrects weights and
- * areas at degenerate faces, and calls page_order and page_factor; then page_field as often as it likes.  After page_order
- * it may also call page_shift, and page_resolvent as often.  For geodesic distance it calls page_unfold, and page_geodesic
- * as often. */
+ * areas at degenerate faces, and calls page_order and page_factor; then page_field as often as it likes.  With matrices of
+ * its own it calls page_matrix instead of page_measure, and fills in rows and areas.  After page_order it may also call
+ * page_shift, and page_resolvent as often.  For geodesic distance it calls page_unfold, and page_geodesic as often. */
 #ifdef __wasm__
 #include "geodesic.h"
 
 /* What page_array has. */
-enum { POINTS, FACES, WEIGHTS, AREAS, BIHARMONIC, COMMUTE_TIME, GEODESIC, RESOLVENT };
+enum { POINTS, FACES, WEIGHTS, AREAS, BIHARMONIC, COMMUTE_TIME, GEODESIC, RESOLVENT, START, INDEX, VALUE };
 
 enum { PIN = 0, MOST_NEAR = 16 };
 
@@ -52,13 +52,16 @@ EXPORT(page_begin) void page_begin(i32 vertices, i32 triangles) {
   for (int k = 0; k < 3; k++) field[k] = take_doubles(n);
 }
 
-EXPORT(page_array) void *page_array(i32 which) {
+EXPORT(page_array) const void *page_array(i32 which) {
   switch (which) {
   case POINTS: return points;
   case FACES: return faces;
   case WEIGHTS: return weights;
   case AREAS: return areas;
   case RESOLVENT: return resolvent;
+  case START: return stiffness.start;
+  case INDEX: return stiffness.index;
+  case VALUE: return stiffness.value;
   default: return field[which - BIHARMONIC];
   }
 }
@@ -80,8 +83,13 @@ EXPORT(page_measure) void page_measure(i32 barycentric) {
   end = before;
 }
 
-/* The matrices, and the order and layout of their elimination. */
-EXPORT(page_order) i32 page_order(void) {
+/* Room for the rows of a stiffness matrix that is not of the faces, with so many entries. */
+EXPORT(page_matrix) void page_matrix(i32 entries) {
+  stiffness = (Rows){n, take_ints(n + 1), take_ints(entries), take_doubles(entries)};
+}
+
+/* The stiffness matrix of the faces. */
+static void assemble(void) {
   i32 *start = take_ints(n + 1), *index = take_ints(n + 9 * m);
   double *value = take_doubles(n + 9 * m);
   i64 *wide = take_longs(3 * m);
@@ -89,14 +97,22 @@ EXPORT(page_order) i32 page_order(void) {
   i64 entries = bih_stiffness(n, m, wide, weights, start, index, value, take_ints(3 * n + 1));
   end = (unsigned char *)index;
   index = take_ints(entries); /* where it is, but shorter */
-  double *from = value, *pinned;
+  double *from = value;
   value = take_doubles(entries);
   for (i64 e = 0; e < entries; e++) value[e] = from[e];
-  pinned = take_doubles(entries);
+  stiffness = (Rows){n, start, index, value};
+}
+
+/* The matrices, and the order and layout of their elimination. */
+EXPORT(page_order) i32 page_order(void) {
+  if (!stiffness.n) assemble();
+  const i32 *start = stiffness.start, *index = stiffness.index;
+  i64 entries = start[n];
+  double *pinned = take_doubles(entries);
   for (i64 v = 0; v < n; v++)
     for (i64 e = start[v]; e < start[v + 1]; e++)
-      pinned[e] = v == PIN || index[e] == PIN ? v == index[e] : value[e];
-  stiffness = (Rows){n, start, index, value}, matrix = (Rows){n, start, index, pinned};
+      pinned[e] = v == PIN || index[e] == PIN ? v == index[e] : stiffness.value[e];
+  matrix = (Rows){n, start, index, pinned};
 
   i32 *last = take_ints(2 * n + 1), *subtrees = take_ints(4 * n + 2);
   order = take_ints(n), place = take_ints(n);

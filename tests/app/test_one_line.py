@@ -11,17 +11,17 @@ import pytest
 from hypothesis import HealthCheck, given, settings, strategies as st
 
 import app
-from app.commands.figure_options import add_figure_options, chosen_recipe
+from app.commands.figure import add_figure_options, chosen_recipe
 from app.document.camera import VIEWS, Camera
 from app.document.document import Document, FieldArray, Inset, MeshFile, Panel, Point, comparison
 from app.document.looks import CURVATURE, UPS, Base, Clip, Colours, Isolines, Shading
 from app.document.on_surface import Hidden
+from app.document.option import curves_in
 from app.document.page import Page, Recipe
 from app.document.quantities import Difference, DistanceFrom, OwnField, quantity
 from app.document.repairs import Repairs, with_repairs
 from app.document.shared_parts.pins import Pin, Pins, add_pins, with_pins
 from app.document.shared_parts.selections import select_instead
-from app.document.starts import curves_in
 from app.document.tools import part_types
 from app.figures import one_line
 from app.figures.arguments import GROUPS

@@ -13,7 +13,7 @@ from bihdist_core import BiharmonicDistance, Laplacian, ParameterError, write_me
 from bihdist_core.analysis.surface_notes import surface_notes
 from bihdist_core.intrinsic import INTRINSIC, OPERATORS as OF_CORE
 from tests.batch.runs import batch
-from tests.commands import ran, refused
+from tests.commands import ran
 from tests.shapes import bumpy, caps, fin
 
 THIN = caps(bumpy(100), 5e-3, 3)
@@ -83,8 +83,3 @@ def test_where_it_matters_it_is_proposed(mesh):
     (note,) = surface_notes(THIN).warnings
     assert note.endswith("thin faces, for which there is the operator intrinsic-delaunay")
     assert not surface_notes(bumpy(100)).warnings
-
-
-def test_a_page_which_computes_by_faces_refuses_others(mesh, tmp_path, capsys):
-    said = refused(capsys, "page", mesh, "--operator", INTRINSIC, "-o", tmp_path / "page.html")
-    assert "A page computes by the faces of a mesh; leave out the operator intrinsic-delaunay." in said

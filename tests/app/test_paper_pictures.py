@@ -9,10 +9,9 @@ from app.figures.draw import ComposedPage, draw_figure, lay_out, take_shots
 from app.figures.page_output import page_pixels
 from app.paper import reproduce as reproducing
 from app.paper.charts import colours_of, drawn, plain
-from app.paper.drawing import Pictures, png
 from app.paper.page import Section, page
 from app.paper.pictures import ANCHOR, CANDIDATE, FINER, TARGET, WIDTH, figure_of
-from app.paper.reproduce import reproduce
+from app.paper.reproduce import Pictures, png, reproduce
 from app.scene.camera import directions
 from bihdist_core import BihdistError, SolverError
 from bihdist_core.experiments import EXPERIMENTS, Chart, Mark, Panel, Result, Series
@@ -246,7 +245,7 @@ def test_a_picture_that_cannot_be_drawn_is_listed(tmp_path, monkeypatch):
 
     made = result(Panel("one", "bumpy", FIELD, "row"), charts=(curves("biharmonic"),))
     monkeypatch.setattr(reproducing.Experiment, "compute", lambda *_: made)
-    monkeypatch.setattr("app.paper.drawing.Worker.ask", broken)
+    monkeypatch.setattr("app.paper.reproduce.Worker.ask", broken)
     said = []
     done = reproduce(str(tmp_path), ["fig1"], say=said.append)
     assert done.not_done == 1

@@ -7,8 +7,7 @@ from vtkmodules.vtkRenderingCore import vtkRenderer, vtkRenderWindow
 
 from app.document.looks import Clip
 from app.scene.clipping import clip_plane
-from app.scene.face_blocks import BLOCK, BLOCKS_AT_ONCE, FaceBlocks
-from app.scene.picking import Picker
+from app.scene.picking import BLOCK, BLOCKS_AT_ONCE, FaceBlocks, Picker
 from bihdist_core import Surface
 from tests.shapes import bumpy, fin, grid, slivers, sphere, torus, two_pieces
 

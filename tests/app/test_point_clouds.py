@@ -1,7 +1,6 @@
 """Commands on points without faces."""
 
 import json
-import sys
 from pathlib import Path
 
 import numpy as np
@@ -17,11 +16,9 @@ from app.scene.field_actor import UNDEFINED
 from app.scene.prepared import prepare
 from app.scene.splats import CORNERS, at_corners
 from app.scene.stand_in import stand_in
-from app.tools.source.strokes import source_from_strokes
+from app.tools.source.gestures import source_from_strokes
 from bihdist_core import BiharmonicDistance, PointCloud, SourceSet, SurfacePoint, read_surface
 from tests.shapes import bumpy
-
-pytestmark = pytest.mark.skipif(sys.version_info >= (3, 15), reason="no wheels of robust_laplacian")
 
 
 @pytest.fixture
@@ -59,7 +56,7 @@ def test_field_pairs_and_info(cloud, capsys):
         ("statistics scan.xyz --sources 3", "statistics need faces"),
         ("regions scan.xyz --sources 3,40 -o labels.csv", "regions need faces"),
         ("perturb scan.xyz --noise 0.1 -o noisy.ply", "changes need faces"),
-        ("page scan.xyz -o page.html", "pages need faces"),
+        ("page scan.xyz -o page.html --distance geodesic", "geodesic distance needs faces"),
         ("figure scan.xyz --distance biharmonic --isoline-labels", "labels of isolines need faces"),
     ],
 )

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from app.commands.result import as_json
+from app.commands.terminal import as_json
 from app.main import COMMANDS, main
 from app.version import version
 from bihdist_core import BiharmonicDistance, farthest_points, field_statistics, read_surface, write_mesh

@@ -13,7 +13,8 @@ from app.scene.drawable import drawable
 from app.scene.field_actor import UNDEFINED, FieldActor
 from app.scene.picking import Picker
 from app.scene.style import STYLES
-from bihdist_core import BiharmonicDistance, TetrahedralMesh
+from bihdist_core import BiharmonicDistance, Surface, TetrahedralMesh
+from bihdist_core.analysis.surface_notes import surface_notes
 from bihdist_core.distances.distance_types import Spec
 from bihdist_core.formats.field_output import write_fields
 from tests.commands import ran, refused
@@ -69,6 +70,14 @@ def test_sources_of_pictures_are_on_the_boundary(solid, path, tmp_path, capsys):
     assert f"vertex {within} is not on the boundary; only commands without a picture" in said
 
 
+def test_a_solid_is_not_warned_of_what_matters_on_surfaces_alone():
+    x = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1], [1, 0, 0.001], [0, -1, 1], [9, 9, 9]]
+    both = TetrahedralMesh(x, [[0, 1, 2, 3], [0, 3, 5, 4]], "two")  # with an edge of four faces
+    notes = surface_notes(both.shape)
+    assert (notes.facts, notes.warnings) == (("the boundary of 2 tetrahedra",), ())
+    assert surface_notes(Surface(both.shape.vertices, both.shape.faces)).warnings
+
+
 def test_a_batch_measures_solids_and_says_that_they_have_no_areas(solid, path, tmp_path, capsys):
     words = ["batch", path, "--do", "fields", "--sources", "250", "--workers", "1", "-o"]
     ran(capsys, *words, tmp_path / "out")
@@ -80,7 +89,6 @@ def test_a_batch_measures_solids_and_says_that_they_have_no_areas(solid, path, t
 
 def test_what_needs_a_surface_is_refused(path, tmp_path, capsys):
     assert "changes need faces" in refused(capsys, "perturb", path, "--noise", "1", "-o", tmp_path / "a.ply")
-    assert "pages cannot measure through tetrahedra" in refused(capsys, "page", path, "-o", tmp_path / "a.html")
 
 
 # ---------------------------------------------------------------------- the cut

@@ -13,7 +13,7 @@ from app.document.document import MeshFile
 from app.session.latest_request_worker import LatestRequestWorker
 from app.session.loaded_mesh import LoadedMesh
 from app.session.questions import DistanceQuestion
-from app.tools.pins.pairwise_distances import PairwiseDistances
+from app.tools.pins.distances import PairwiseDistances
 from app.tools.profile.paths import PathWanted, PathWorker
 from app.tools.quality.quality_worker import QualityWorker
 from app.tools.regions.division import Dividing, RegionsQuestion
@@ -177,7 +177,7 @@ def test_regions(noted, loaded, fails_once):
 
 
 def test_distances_among_pins(noted, loaded, fails_once):
-    fails_once("app.tools.pins.pairwise_distances.distances_among")
+    fails_once("app.tools.pins.distances.distances_among")
     posted = queue.Queue()
     among = PairwiseDistances(posted.put, lambda: None)
     among.ask(loaded, "voronoi", [BIHARMONIC], [3, 5])

@@ -8,7 +8,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from app.scene.face_blocks import z_order
+from app.scene.picking import z_order
 
 Arrays = tuple[np.ndarray, np.ndarray]
 

@@ -9,7 +9,10 @@ from PIL import Image
 
 import app as bihdist
 from app.document.quantities import quantity
+from bihdist_core import PointCloud, TetrahedralMesh
+from bihdist_core.distances.answers import Distances
 
+from ..core.test_tetrahedra import ball
 from ..shapes import bumpy
 from .shown_page import VIEW, ShownPage, made
 
@@ -205,6 +208,35 @@ def test_a_field_of_ones_own_is_shown_and_stays(browser, tmp_path):
     words = browser.evaluate("[...document.querySelectorAll('.bihdist .pins .value')].map((each) => each.textContent)")
     assert words[1:] == ["undefined", "undefined"]
     assert browser.errors == []
+
+
+@pytest.mark.parametrize("kind", ["points", "solid", "tufted"])
+def test_points_solids_and_operators_answer_clicks_by_their_matrices(browser, tmp_path, kind):
+    meshes = {"points": PointCloud(bumpy(800).vertices, "scan"), "solid": TetrahedralMesh(*ball(500), "ball")}
+    path, names = tmp_path / "p.html", ["biharmonic", "diffusion"]
+    page = bihdist.page(meshes.get(kind, bumpy(800)), path, names, operator=kind if kind == "tufted" else "cotan")
+    specs, distances = [quantity(each).specs[0] for each in names], Distances(page.mesh.laplacian("voronoi"))
+    shown, sources = ShownPage(browser, page, path, distances), set()
+    for place in shown.places(3):
+        shown.click(*place)
+        sources.add(shown.shown[0])
+        assert max(shown.worst(specs)) < 1e-7
+    assert len(sources) == 3
+    assert browser.errors == []
+
+
+def test_a_page_says_what_its_clip_plane_cuts_away(browser, tmp_path):
+    surface = bumpy(800)
+    far, near = int(surface.vertices[:, 0].argmax()), int(surface.vertices[:, 0].argmin())
+    page = bihdist.page(surface, tmp_path / "p.html", ["biharmonic"], far, view={"clip": "x@0.6", "cpos": "front"})
+    shown = ShownPage(browser, page, tmp_path / "p.html")
+    said = f"{VIEW}.stage.views[0].getAttribute('aria-description')"
+    assert browser.evaluate(said) == f"Vertex {far} is cut away by the clip plane."
+    note = np.array(Image.open(io.BytesIO(browser.screenshot())).convert("L"))[: int(shown.box["y"]) + 30]
+    browser.evaluate(f"{VIEW}.setSource({near})")
+    browser.until(f"{said} === ''")
+    gone = np.array(Image.open(io.BytesIO(browser.screenshot())).convert("L"))[: int(shown.box["y"]) + 30]
+    assert (note[-28:] < 160).sum() > 100 + (gone[-28:] < 160).sum()
 
 
 def test_a_page_in_the_scene_of_a_stranger_runs_nothing_of_it(browser, tmp_path):

@@ -1,7 +1,6 @@
 """Operators of other triangulations than a surface's faces, and distances by them."""
 
 import pickle
-import sys
 
 import numpy as np
 import pytest
@@ -18,6 +17,7 @@ from bihdist_core import (
     ParameterError,
     PointCloud,
     Surface,
+    intrinsic,
     read_surface,
 )
 from bihdist_core.distances.distance_types import Spec
@@ -25,7 +25,7 @@ from bihdist_core.intrinsic import INTRINSIC, OPERATORS, TUFTED, corners_of, del
 from tests.programs import ROOT
 from tests.shapes import bumpy, caps, fin, grid, plate, slivers, torus, two_pieces
 
-OTHERS = [INTRINSIC, pytest.param(TUFTED, marks=pytest.mark.skipif(sys.version_info >= (3, 15), reason="no wheels"))]
+OTHERS = [INTRINSIC, TUFTED]
 SHAPES = {
     "closed": lambda: bumpy(150),
     "open": lambda: plate(12, 9, 0.3),
@@ -34,6 +34,13 @@ SHAPES = {
     "pieces": two_pieces,
     "three faces": fin,
 }
+
+
+def soup():
+    """Faces between any vertices, many at an edge."""
+    rng = np.random.default_rng(4)
+    faces = np.sort([rng.choice(30, 3, replace=False) for _ in range(150)], axis=1)
+    return Surface(rng.normal(size=(30, 3)), np.unique(faces, axis=0), "soup")
 
 
 def dense(laplacian, power):
@@ -78,7 +85,33 @@ def test_where_nothing_is_flipped_it_is_the_usual_operator():
     assert np.allclose(usual.areas, other.areas, rtol=1e-14)
 
 
-@pytest.mark.skipif(sys.version_info >= (3, 15), reason="no wheels of robust_laplacian")
+@pytest.mark.parametrize("shape", [*SHAPES, "soup"])
+def test_the_tufted_cover_is_that_of_its_authors(shape):
+    reference = pytest.importorskip("robust_laplacian")
+    surface = SHAPES.get(shape, soup)()
+    used, faces = np.unique(surface.faces, return_inverse=True)
+    stiffness, areas = reference.mesh_laplacian(surface.vertices[used], faces.reshape(-1, 3))
+    laplacian = Laplacian(surface, operator=TUFTED)
+    off = laplacian.stiffness[used][:, used] - (stiffness + stiffness.T) / 2
+    assert abs(off).max() < 1e-9 * abs(stiffness).max()
+    np.testing.assert_allclose(laplacian.areas[used], areas.diagonal(), rtol=1e-9)
+
+
+def test_faces_about_an_edge_are_glued_to_the_next():
+    turns = np.random.default_rng(1).uniform(0, 2 * np.pi, 500)
+    tips = np.stack([0.3 * np.cos(turns), 0.3 * np.sin(turns), np.full(500, 0.5)], axis=1)
+    x = np.concatenate([[[0, 0, 0], [0, 0, 1]], tips])
+    book = Surface(x, [[0, 1, k] for k in range(2, 502)])
+    laplacian = Laplacian(book, operator=TUFTED)
+    # All pages are obtuse, so that the edge is flipped between each and the next.
+    joined = np.argwhere(np.triu(laplacian.stiffness[2:, 2:].toarray() < 0))
+    order = np.argsort(turns)
+    around = np.sort(np.stack([order, np.roll(order, 1)], axis=1), axis=1)
+    assert {*map(tuple, joined.tolist())} == {*map(tuple, around.tolist())}
+    assert laplacian.stiffness[0, 1] == 0
+    assert laplacian.areas.sum() == pytest.approx(book.area, rel=1e-12)
+
+
 def test_of_a_closed_surface_both_are_one():
     for surface in (caps(bumpy(100), 0.05, 3), torus(7, 5), bumpy(300)):
         one, other = (Laplacian(surface, areas, operator=each).stiffness for each, areas in
@@ -96,20 +129,22 @@ def test_a_plane_gets_its_delaunay_triangulation(turned):
     if turned:
         faces[::2] = faces[::2, ::-1]  # faces need not lead the same way round
     surface = Surface(np.column_stack([points, np.zeros(len(points))]), faces)
-    found, corners = delaunay(surface)
+    found, lengths = delaunay(surface)
     inside = {tuple(sorted(face)) for face in wanted.tolist()}
     assert {tuple(sorted(face)) for face in found.tolist()} == inside
-    assert corners[2].sum() == pytest.approx(1, rel=1e-12)
+    assert corners_of(lengths)[2].sum() == pytest.approx(1, rel=1e-12)
 
 
 def test_all_sides_are_delaunay_and_keep_their_lengths():
     surface = caps(torus(9, 6), 0.01, 2)
-    found, (cotangents, squares, _) = delaunay(surface)
+    found, lengths = delaunay(surface)
     assert (np.sort(found, axis=1) != np.sort(surface.faces, axis=1)).any()
-    faces, lengths = found.copy(), np.sqrt(squares.T)
     # With sides glued by their ends alone, where these are of one edge.
-    assert flip(faces, lengths.copy()) == 0
-    assert np.allclose(corners_of(lengths)[0], cotangents)
+    pairs = np.sort(found[:, [[1, 2], [2, 0], [0, 1]]], axis=2) @ [len(surface.vertices), 1]
+    edge = np.unique(pairs, return_inverse=True)[1].reshape(-1, 3)
+    faces, same = flip(found, lengths, edge, "torus")
+    assert np.array_equal(faces, found)
+    assert np.array_equal(same, lengths)
 
 
 def test_thin_faces_have_no_negative_weights():
@@ -160,9 +195,15 @@ def test_what_there_is_not_is_refused(monkeypatch):
     points = PointCloud(bumpy(30).vertices)
     with pytest.raises(ParameterError, match="the operator tufted needs faces"):
         _ = Laplacian(points, operator=TUFTED).stiffness
-    monkeypatch.setitem(sys.modules, "robust_laplacian", None)
-    with pytest.raises(MeshError, match=r"needs the package robust_laplacian; `pip install 'bihdist\[points\]'`"):
-        _ = Laplacian(bumpy(20), operator=TUFTED).stiffness
+    monkeypatch.setattr(intrinsic, "library", lambda: None)
+    monkeypatch.setattr(intrinsic, "why_plain", lambda: "as it is")
+    for ask in (
+        lambda: Laplacian(bumpy(20), operator=TUFTED).stiffness,
+        lambda: Laplacian(bumpy(20), operator=INTRINSIC).stiffness,
+        lambda: PointCloud(bumpy(30).vertices),
+    ):
+        with pytest.raises(MeshError, match=r"Delaunay triangulations need the compiled kernel \(as it is\)"):
+            ask()
 
 
 SHARED = ROOT.parent / "shared" / "meshes"

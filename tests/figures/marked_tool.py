@@ -5,8 +5,7 @@ from dataclasses import replace
 import numpy as np
 
 from app.document.tools import Tool
-from app.drawing.glyphs import DIAMOND, Layer
-from app.drawing.line_looks import LineLook, Stroke
+from app.drawing.glyphs import DIAMOND, Layer, LineLook, Stroke
 from app.marks.marked_panel import MarkedPanel
 from app.marks.primitives import AreaMark, LineMark, PointMark, Remark, SurfaceMark
 

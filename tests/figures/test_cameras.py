@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import app
-from app.commands.figure_options import add_figure_options, chosen_recipe
+from app.commands.figure import add_figure_options, chosen_recipe
 from app.document.camera import ANATOMICAL, VIEWS, Camera
 from app.document.camera_text import camera_text, read_camera
 from app.document.document import Document, comparison

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import app
-from app.commands.figure_options import add_figure_options, chosen_recipe
+from app.commands.figure import add_figure_options, chosen_recipe
 from app.document.document import comparison
 from app.document.edits import end_at, has_ends, with_range
 from app.document.file import read_recipe

@@ -10,12 +10,11 @@ from vtkmodules.vtkRenderingCore import vtkRenderer, vtkRenderWindow
 
 from app.document.looks import Colours, Isolines
 from app.scene.bands import band_edges, bar_colours, beyond
-from app.scene.colour_maps import MAPS, backwards, colours_at, goes_both_ways, lightened
+from app.scene.colour_maps import MAPS, backwards, colours_at, goes_both_ways, lightened, oklab, srgb
 from app.scene.drawable import drawable
 from app.scene.field_actor import FieldActor
 from app.scene.levels import levels
 from app.scene.offscreen_renderer import OffscreenRenderer
-from app.scene.oklab import oklab, srgb
 from app.scene.style import DARK, INK, LINES, PAPER, STYLES, WHITE, line_on, style_of
 from bihdist_core import ParameterError
 from bihdist_core.surface import Surface

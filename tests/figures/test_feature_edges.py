@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from app.document.looks import AS_IT_IS, Clip, Shading
-from app.drawing.line_looks import FEATURE_EDGES
+from app.drawing.glyphs import FEATURE_EDGES
 from app.figures.description import Figure, FigurePanel
 from app.figures.draw import lay_out, save_figure
 from app.figures.hidden_lines import HiddenLineRemoval

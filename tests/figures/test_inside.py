@@ -14,7 +14,7 @@ from app.document.document import comparison
 from app.document.file import recipe_from_text, recipe_text
 from app.document.looks import AXES, NO_LINES, Clip
 from app.document.page import Recipe
-from app.drawing.line_looks import PATH, SECTION
+from app.drawing.glyphs import PATH, SECTION
 from app.figures.description import Figure, FigurePanel
 from app.figures.draw import lay_out, save_figure
 from app.figures.hidden_lines import Curve, HiddenLineRemoval

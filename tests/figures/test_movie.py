@@ -16,8 +16,7 @@ from app.figures.description import Figure, FigurePanel
 from app.figures.frames import drawn_frames
 from app.figures.hidden_lines import HiddenLineRemoval
 from app.figures.layout import lay_out
-from app.figures.motion import Sweep, angles, eased, way, with_digits
-from app.figures.movie import Movie, route, write_movie
+from app.figures.movie import Movie, Sweep, angles, eased, route, way, with_digits, write_movie
 from app.figures.movie_files import check_movie
 from app.figures.size import Size
 from app.figures.turning import fitted_size, start_and_axis

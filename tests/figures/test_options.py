@@ -10,7 +10,7 @@ from app.figures.draw import Figure, FigurePanel, Inset, draw_figure, save_figur
 from app.figures.layout import lay_out
 from app.figures.picture import figure
 from app.figures.size import Size
-from app.marks.field_marks import source_lines
+from app.marks.marked_panel import source_lines
 from app.marks.primitives import PointMark
 from app.scene.camera import Camera
 from app.scene.style import DARK, PAPER, STYLES

@@ -96,6 +96,15 @@ def test_the_ground_has_a_black_shadow_with_alpha_below_the_shape():
     assert (drawn(flat, ground=True) == drawn(flat)).all()
 
 
+def test_the_shadow_on_the_ground_ends_in_the_picture_and_fills_it():
+    panel = FigurePanel(sphere(300), None, views=("high",), ground=True)
+    figure = Figure((panel,), size=Size.parse("400"), style=STYLES["paper"], transparent=True, crop=True)
+    alpha = take_shots(figure, lay_out(figure), silent)[0].image[..., 3]
+    rim = np.concatenate([alpha[0], alpha[-1], alpha[:, 0], alpha[:, -1]])
+    assert rim.max() <= 2
+    assert (alpha > 2).any(axis=0).mean() > 0.9
+
+
 def test_a_bowl_is_darker_inside_and_a_ball_is_not(tmp_path):
     def brightness(surface, style):
         picture = drawn(surface, style)

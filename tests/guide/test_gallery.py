@@ -18,7 +18,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from app.commands.figure_options import chosen_recipe
+from app.commands.figure import chosen_recipe
 from app.document.file import read_recipe, recipe_text, with_meshes_from
 from app.figures.export import open_document
 from app.figures.picture import figure_again

@@ -11,7 +11,7 @@ import pytest
 from PIL import Image
 from qtpy import QtGui
 
-from app.qt.pages.commands import GESTURES, plain
+from app.qt.pages.palette import GESTURES, plain
 from tests.qt.guide_pictures import FRAME_MS, MOVING, MOVING_WIDTH, PICTURES, picture_names
 from tests.qt.guide_scenes import SCENES
 from tests.waiting import PATIENCE

@@ -10,11 +10,13 @@ from pathlib import Path
 import numpy as np
 import scipy.sparse as sp
 
-from bihdist_core import BiharmonicDistance, CommuteTimeDistance, Surface
+from bihdist_core import BiharmonicDistance, CommuteTimeDistance, PointCloud, Surface
 from bihdist_core.distances import exact_geodesic
 from bihdist_core.distances.exact_geodesic import ExactGeodesic
 from bihdist_core.errors import BihdistError, Cancelled
+from bihdist_core.intrinsic import OPERATORS
 from bihdist_core.kernel import library
+from bihdist_core.operators import operators
 from bihdist_core.solver.elimination_tree import EliminationTree
 from bihdist_core.solver.factor import Factor
 from bihdist_core.sources.pieces import Pieces
@@ -60,6 +62,18 @@ def measure(surface: Surface) -> bool:
         distance.from_source(len(surface.vertices) // 2)
         distance.pairwise(np.arange(min(9, len(surface.vertices))))
         CommuteTimeDistance(distance.laplacian).from_source(0)
+    except BihdistError:
+        return False
+    return True
+
+
+def triangulate(surface: Surface) -> bool:
+    """Whether a surface has a Delaunay triangulation and a tufted cover, and its points, also in a plane, triangles."""
+    try:
+        for operator in OPERATORS[1:]:
+            operators(surface, operator=operator)
+        PointCloud(surface.vertices)
+        PointCloud(surface.vertices * (1, 1, 0))
     except BihdistError:
         return False
     return True
@@ -136,6 +150,7 @@ def main(folder: str, name: str, count: str = str(MUTATED)) -> None:
     good = sum(measure(surface) for surface in sound)
     assert good == len(sound), good
     assert is_cancelled(sound[-1])
+    assert all(map(triangulate, sound[1:]))
     # So little room that windows have to move several times.
     exact_geodesic.FIRST_WINDOWS, exact_geodesic.MOST_WINDOWS_PER_VERTEX = 16, 0
     exact_geodesic.MOST_WINDOWS_AT_LEAST = 40 * WINDOWS
@@ -143,11 +158,12 @@ def main(folder: str, name: str, count: str = str(MUTATED)) -> None:
     exact_geodesic.MOST_WINDOWS_AT_LEAST = WINDOWS
     number = int(count)
     meshes = [mutated(sound[rng.integers(len(sound) - 1)], rng) for _ in range(number)]
-    still = sum(map(measure, meshes))
+    still, flipped = (sum(map(what, meshes)) for what in (measure, triangulate))
     meshes = meshes[::2] + [Surface(*nasty_mesh(seed, HARD_FACES)) for seed in range(number // 6)]
     gone = sum(go_over(surface, rng) for surface in meshes)
     factored = sum(factor(int(rng.integers(1, 200)), rng) for _ in range(MATRICES))
     print(f"{still} of {number} mutated meshes have distances, {factored} of {MATRICES} matrices a factor")
+    print(f"{flipped} of {number} mutated meshes have Delaunay triangulations")
     print(f"{gone} of {len(meshes)} mutated and hard meshes have exact geodesics")
 
 

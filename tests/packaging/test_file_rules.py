@@ -16,7 +16,7 @@ RULES = {
     r"\bnp\.save\(|\.tofile\(": (set(), "`formats.array_file.put_array`, which notices that a disk is full"),
     r"\.read_text\(": (
         {"bihdist_core/machine_memory.py", "app/figures/export.py", "app/plain_guide.py"}
-        | {f"app/qt/look/{name}.py" for name in ("icons", "marks_in_controls")},
+        | {f"app/qt/look/{name}.py" for name in ("icons", "style_sheet")},
         "`file_content.file_text`, which bounds its size and waits for no pipe",
     ),
 }
@@ -25,7 +25,7 @@ RULES = {
 WRITES = re.compile(r"\.write_(text|bytes)\(|\.open\(\"[wx]b?\"|\bopen\([^)\n]*\"[wx]b?\"")
 WHOLE = re.compile(r"\batomic_write\b|\.writing\(")
 MAY_WRITE = {
-    "app/qt/look/marks_in_controls.py",  # into a folder of its own
+    "app/qt/look/style_sheet.py",  # into a folder of its own
     "app/figures/page_output.py",  # what it is given is temporary
     "bihdist_core/formats/tetrahedra.py",  # for meshio, into a folder of its own
 }

@@ -98,7 +98,6 @@ WITHOUT_QT |= {
     "candidate_errors",
     "quality_worker",
     "locations",
-    "pairwise_distances",
     "options",
     "marks",
 }

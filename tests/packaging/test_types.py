@@ -55,5 +55,5 @@ def test_signatures_are_short():
         found = getattr(bihdist, name)
         if callable(found) and not (inspect.isclass(found) and issubclass(found, Exception | dict)):
             lengths[name] = len(str(inspect.signature(found)))
-    assert {name for name, length in lengths.items() if length > 500} == {"figure", "page", "show", "widget"}
+    assert {name for name, length in lengths.items() if length > 500} == {"figure", "page", "widget"}
     assert max(lengths.values()) < 850

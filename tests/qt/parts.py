@@ -15,7 +15,7 @@ WHERE = {
     "gestures": "qt.gestures:Gestures",
     "guide": "qt.guide:Guide",
     "held_keys": "qt.held_keys:HeldKeys",
-    "isolines": "qt.isoline_choices:IsolineChoices",
+    "isolines": "qt.choices:IsolineChoices",
     "pairs": "tools.correspondence.gestures:PairGestures",
     "repairs": "qt.files.mesh_repairs:MeshRepairs",
     "quality": "tools.quality.findings:QualityFindings",

@@ -146,7 +146,7 @@ def choose_entry(
     """Open a menu below a widget and go to an entry; `then` is called, and the entry chosen if asked."""
     from qtpy import QtCore
 
-    from app.qt.pages.commands import plain
+    from app.qt.pages.palette import plain
 
     corner, room = below.mapToGlobal(below.rect().bottomLeft()), d.look.width - menu.sizeHint().width() - 4
     corner.setX(min(corner.x(), room))

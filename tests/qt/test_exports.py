@@ -169,11 +169,12 @@ def test_the_chip_grows_with_the_letters_and_ends_with_its_window(small, out):
     from app.qt.look.look import LOOK
 
     movie_dialog(small, 2000).export(str(out / "m.gif"))
+    LOOK.apply_theme(small)
     other = ExportBadge(small.exports)
-    before = other.share.sizeHint().width()
+    before = small.chip.share.sizeHint().width()
     try:
         LOOK.enlarge(1.35)
-        assert before < other.share.sizeHint().width()
+        assert before < small.chip.share.sizeHint().width()
         assert small.chip.width() <= 220
         other.deleteLater()
         QtTest.QTest.qWait(1)

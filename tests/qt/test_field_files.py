@@ -33,7 +33,7 @@ def paths(monkeypatch, tmp_path):
         asked.append((title, name))
         return str(tmp_path / answers.pop(0))
 
-    monkeypatch.setattr("app.qt.files.writing.ask_path", ask)
+    monkeypatch.setattr("app.qt.files.saving.ask_path", ask)
     return answers, asked
 
 

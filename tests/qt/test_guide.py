@@ -52,7 +52,7 @@ def test_a_guide_that_is_not_built_opens_as_text(screen, built_guide, monkeypatc
 
 
 def test_the_palette_finds_it(screen):
-    from app.qt.pages.commands import found
+    from app.qt.pages.palette import found
 
     s = screen()
     for typed in ("guide", "manual", "documentation"):

@@ -12,8 +12,7 @@ from app.document.edits import move_source
 from app.document.runs import ids_of
 from app.document.shared_parts.pins import Pins, add_pins
 from app.document.shared_parts.selections import Selections, select
-from app.qt.files.merge_dialog import MergeDialog, usual_tolerance
-from app.qt.files.mesh_repairs import MeshRepairs
+from app.qt.files.mesh_repairs import MergeDialog, MeshRepairs, usual_tolerance
 from bihdist_core import BiharmonicDistance
 from bihdist_core.distances.distance_types import Spec
 from bihdist_core.sources.source import SurfacePoint

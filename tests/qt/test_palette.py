@@ -5,7 +5,7 @@ from qtpy import QtCore, QtGui, QtWidgets
 from qtpy.compat import isalive
 from qtpy.QtTest import QTest
 
-from app.qt.pages.commands import NO_MESH, Command, commands_of
+from app.qt.pages.palette import NO_MESH, Command, commands_of
 from tests.qt.parts import parts
 from tests.shapes import bumpy
 
@@ -44,7 +44,7 @@ def test_commands_are_made_from_the_menus(application):
 
 
 def test_what_can_be_run_and_what_has_the_words_in_its_title_stands_first():
-    from app.qt.pages.commands import Command, found
+    from app.qt.pages.palette import Command, found
 
     rows = [
         Command("Redo", "Ctrl+Y", "again", can_run=True),
@@ -91,7 +91,7 @@ def current(palette):
 
 
 def test_the_words_people_know_find_what_they_mean_and_all_synonyms_belong_to_something(shown):
-    from app.qt.pages.commands import MENU_SYNONYMS, found, plain
+    from app.qt.pages.palette import MENU_SYNONYMS, found, plain
 
     commands = parts(shown.window).guide.commands()
     for typed, meant in {
@@ -194,7 +194,7 @@ FOUND = {
 
 
 def test_plain_words_find_what_they_mean(shown):
-    from app.qt.pages.commands import GESTURES, found
+    from app.qt.pages.palette import GESTURES, found
 
     commands = [*parts(shown.window).guide.commands(), *GESTURES]
     missed = {
@@ -207,7 +207,7 @@ def test_plain_words_find_what_they_mean(shown):
 
 def test_recent_files_are_found_by_their_names_after_commands(shown, mesh_file, tmp_path, monkeypatch):
     from app.qt import remembered
-    from app.qt.pages.commands import GESTURES, found
+    from app.qt.pages.palette import GESTURES, found
 
     monkeypatch.setenv("XDG_DATA_HOME", str(tmp_path / "mouse"))
     paths = [mesh_file(bumpy(60), name) for name in ("mouse.off", "sphere.off")]

@@ -1,7 +1,5 @@
 """Points without faces in the window: picking, fields, and what needs faces."""
 
-import sys
-
 import numpy as np
 import pytest
 from qtpy import QtCore, QtTest, QtWidgets
@@ -12,8 +10,6 @@ from bihdist_core.formats.field_output import write_fields
 from tests.core.test_tetrahedra import ball
 from tests.qt.parts import parts
 from tests.shapes import bumpy
-
-pytestmark = pytest.mark.skipif(sys.version_info >= (3, 15), reason="no wheels of robust_laplacian")
 
 
 @pytest.fixture

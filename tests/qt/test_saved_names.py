@@ -17,7 +17,7 @@ def suggested(monkeypatch):
 
 
 def test_every_dialog_suggests_the_mesh_what_is_saved_and_of_which_distance(screen, mesh_file, suggested):
-    from app.qt.files.isoline_files import save_isolines
+    from app.qt.files.field_files import save_isolines
 
     s = screen()
     s.open(mesh_file(bumpy(300)), source=12)

@@ -6,7 +6,7 @@ import numpy as np
 
 from app.document import tools
 from app.document.edits import move_source
-from app.drawing.line_looks import SOURCE
+from app.drawing.glyphs import SOURCE
 from app.qt.panels import line_marks
 from tests.figures.marked_tool import FLAG, TOOL
 from tests.shapes import bumpy

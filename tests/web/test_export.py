@@ -19,8 +19,20 @@ from app.document.quantities import quantity
 from app.main import main
 from app.web import export, page as of_page
 from app.web.stored_mesh import StoredMesh
-from bihdist_core import BiharmonicDistance, CommuteTimeDistance, OutputError, ParameterError, Surface
+from bihdist_core import (
+    BiharmonicDistance,
+    CommuteTimeDistance,
+    Laplacian,
+    OutputError,
+    ParameterError,
+    PointCloud,
+    Surface,
+    TetrahedralMesh,
+)
+from bihdist_core.distances.answers import Distances
+from bihdist_core.distances.distance_types import Spec
 from tests.commands import ran, refused
+from tests.core.test_tetrahedra import ball
 
 from ..shapes import bumpy, needles, slivers, two_pieces
 
@@ -139,7 +151,7 @@ def test_a_recipe_is_taken_and_changed(mesh_file, in_folder, capsys):
 def test_vertices_that_are_cut_out_are_not_on_the_page(mesh_file, in_folder):
     np.savetxt("mask.txt", np.arange(400) < 390, fmt="%d")
     assert main(["page", mesh_file(bumpy(400)), "--cut", "mask.txt", "-o", "p.html", "--sources", "0"]) == 0
-    assert scene_in("p.html")["mesh"]["vertices"] < 400
+    assert scene_in("p.html")["mesh"]["counts"]["vertices"] < 400
 
 
 @pytest.mark.parametrize(
@@ -175,6 +187,17 @@ def test_a_large_mesh_is_refused_with_what_makes_it_smaller(monkeypatch, mesh_fi
     words = said.split("smaller with: bihdist ")[1].replace("100000", "90").split()
     assert main(words) == 0
     assert main(["page", "smaller.ply", "-o", "p.html"]) == 0
+
+
+def test_points_and_tetrahedra_that_are_too_many_have_remedies_of_their_own(monkeypatch, in_folder, cloud):
+    monkeypatch.setattr(export, "MOST_VERTICES", 100)
+    monkeypatch.setattr(export, "MOST_OF_SOLIDS", 200)
+    np.savetxt("scan.xyz", cloud.vertices)
+    for mesh in (cloud, "scan.xyz"):
+        with pytest.raises(ParameterError, match=r"300 vertices, .* up to 100; join near points with --merge"):
+            bihdist.page(mesh, "p.html")
+    with pytest.raises(ParameterError, match="250 vertices, and a page has up to 200; take coarser tetrahedra"):
+        bihdist.page(TetrahedralMesh(*ball(250)), "p.html")
 
 
 def test_a_file_that_announces_too_many_vertices_is_not_read(monkeypatch, mesh_file, in_folder, capsys):
@@ -216,7 +239,8 @@ def test_the_function_takes_arrays_and_says_what_the_page_holds(tmp_path):
     assert page.labels == ("commute-time, exact",)
     scene = scene_in(tmp_path / "p.html")
     assert scene["source"] == 5
-    assert (scene["mesh"]["vertices"], scene["mesh"]["faces"], scene["mesh"]["bits"]) == (300, len(s.faces), 24)
+    assert scene["mesh"]["counts"] == {"vertices": 300, "faces": len(s.faces)}
+    assert (scene["mesh"]["bits"], scene["mesh"]["operator"]) == (24, "")
     assert scene["mesh"]["differs"] == page.differs
     assert scene["isolines"]["count"] == 0
     assert [pin["id"] for pin in scene["pins"]] == [2]
@@ -261,6 +285,65 @@ def test_differences_are_about_the_largest_from_any_source_and_say_from_how_many
     assert "from 8 sources distances equal those on the original mesh within" in capsys.readouterr().out
     assert main(["page", mesh_file(s), "-o", str(tmp_path / "q.html"), "--json"]) == 0
     assert {each["difference_sources"] for each in json.loads(capsys.readouterr().out)["distances"]} == {8}
+
+
+@pytest.fixture
+def cloud():
+    return PointCloud(bumpy(300).vertices, "scan.xyz")
+
+
+@pytest.mark.parametrize("operator", ["intrinsic-delaunay", "tufted"])
+def test_a_page_of_another_operator_measures_by_that(mesh_file, in_folder, operator):
+    surface = bumpy(300)
+    assert main(["page", mesh_file(surface), "--operator", operator, "-o", "p.html", "--sources", "7"]) == 0
+    page = bihdist.page(surface, "q.html", ["biharmonic", "geodesic"], 7, operator=operator)
+    laplacian, there = Laplacian(surface, operator=operator), page.mesh.laplacian("voronoi")
+    for scene in (scene_in("p.html"), page.scene):
+        assert [panel["distance"] for panel in scene["panels"]] == ["biharmonic", "geodesic"]
+        assert scene["mesh"]["operator"].startswith(
+            {"tufted": "Tufted cover"}.get(operator, "Intrinsic Delaunay, Voronoi areas")
+        )
+    source = int(np.flatnonzero(page.mesh.ids == 7)[0])
+    expected = BiharmonicDistance(laplacian).from_source(7)[page.mesh.ids]
+    off = np.abs(BiharmonicDistance(there).from_source(source) - expected).max() / expected.max()
+    assert off <= page.differs["biharmonic"] * (1 + 1e-6) < 1e-6
+    assert 0 < page.differs["geodesic(method=exact)"] < 1e-6
+    # By the faces it would be another distance.
+    assert np.abs(BiharmonicDistance(surface).from_source(7)[page.mesh.ids] - expected).max() > 1e-5 * expected.max()
+
+
+def test_a_page_of_points_leaves_out_what_needs_faces_and_says_so(cloud, in_folder, capsys):
+    np.savetxt("scan.xyz", cloud.vertices)
+    said = ran(capsys, "page", "scan.xyz", "-o", "p.html", "--sources", "7")
+    assert "scan.xyz: 300 points with 24 bits of each coordinate; biharmonic, exact; commute-time, exact" in said.out
+    said = ran(capsys, "page", "scan.xyz", "-o", "p.html", "--distance", "biharmonic,biharmonic - geodesic")
+    assert "The page leaves out 1 panel with geodesic distance: scan.xyz has no faces." in said.err
+    scene = scene_in("p.html")
+    assert [panel["distance"] for panel in scene["panels"]] == ["biharmonic"]
+    assert (scene["mesh"]["counts"], scene["mesh"]["backs"]) == ({"points": 300}, False)
+    assert [each["label"] for each in scene["offered"]] == [
+        "commute-time, exact", "1/λ^1.5, exact", "diffusion, t = 1", "biharmonic, 200 eigenpairs",
+    ]  # fmt: skip
+    assert bihdist.page(cloud, "q.html", source=7, fields={"x": cloud.vertices[:, 0]}).labels == (
+        "biharmonic, exact", "commute-time, exact", "x",
+    )  # fmt: skip
+    page = bihdist.page(cloud, "q.html", ["biharmonic", "diffusion(t=1/4)"], 7)
+    assert 0 < max(page.differs.values()) < 1e-6
+    with pytest.raises(ParameterError, match=r"scan.xyz: geodesic distance needs faces"):
+        bihdist.page(cloud, "q.html", ["geodesic"])
+
+
+def test_a_page_of_tetrahedra_has_the_boundary_and_units_of_a_solid(in_folder):
+    solid = TetrahedralMesh(*ball(300), "ball")
+    page = bihdist.page(solid, "p.html", ["biharmonic", "diffusion"], 0)
+    assert page.scene["mesh"]["counts"] == {"vertices": 300, "tetrahedra": len(solid.tetrahedra)}
+    assert len(page.mesh.surface.faces) == solid.shape.n_faces
+    assert max(page.differs.values()) < 1e-6
+    made = Distances(Laplacian(solid))
+    assert [panel["unit"] for panel in page.scene["panels"]] == ["mesh units^0.5", "mesh units^-1.5"]
+    units = {each["distance"]: each["unit"] for each in page.scene["offered"]}
+    for name, word in (("commute_time", "commute-time"), ("power@1.5", "power"), ("truncated", "truncated")):
+        assert units[name] == made.get(Spec.of(word)).unit
 
 
 def test_several_components_and_all_sorts_of_distances(tmp_path):

@@ -19,13 +19,17 @@ from bihdist_core import (
     CommuteTimeDistance,
     DiffusionDistance,
     ParameterError,
+    PointCloud,
     PowerDistance,
     Surface,
+    TetrahedralMesh,
 )
 from bihdist_core.distances.distance_types import Spec
 from bihdist_core.distances.exact_geodesic import ExactGeodesic
 from bihdist_core.distances.spectral import TruncatedBiharmonicDistance
 from bihdist_core.laplacian import Laplacian
+from bihdist_core.tetrahedra import boundary_of
+from tests.core.test_tetrahedra import ball
 from tests.shapes import bumpy, fin, grid, slivers, sphere, tetrahedron, torus, two_pieces
 from tests.waiting import PATIENCE
 
@@ -53,6 +57,26 @@ SURFACES = {
     "pieces": two_pieces(), "not manifold": fin(), "small": scaled(bumpy(200), 1e-7), "large": scaled(bumpy(200), 1e7),
     "near vertices": with_near_vertices(),
 }  # fmt: skip
+
+
+def two_clouds() -> PointCloud:
+    x = bumpy(300).vertices
+    return PointCloud(np.concatenate([x[:100] + 50, x, x[:3]]), "two clouds")
+
+
+WITH_MATRICES = {
+    "points": lambda: Laplacian(PointCloud(bumpy(400).vertices)), "pieces": lambda: Laplacian(two_clouds()),
+    "solid": lambda: Laplacian(TetrahedralMesh(*ball(300))), "tufted": lambda: Laplacian(fin(), operator="tufted"),
+    "intrinsic": lambda: Laplacian(bumpy(300), "barycentric", "intrinsic-delaunay"),
+    "small": lambda: Laplacian(PointCloud(1e-7 * bumpy(300).vertices)),
+}  # fmt: skip
+
+
+@pytest.fixture(scope="module", params=WITH_MATRICES)
+def with_matrices(request):
+    """A Laplacian that does not follow from faces, and what a page holds of it."""
+    laplacian = WITH_MATRICES[request.param]()
+    return laplacian, StoredMesh.of(boundary_of(laplacian.surface), laplacian=laplacian)
 
 
 def said(mesh: StoredMesh, sources, names, points=None, areas="voronoi", given=None, functions=None):
@@ -136,6 +160,20 @@ def test_vertices_without_faces_are_left_out():
     assert 60 not in StoredMesh.of(two_pieces()).ids
 
 
+def test_matrices_and_normals_are_unpacked_as_they_were_packed(with_matrices):
+    laplacian, mesh = with_matrices
+    unpacked, stored = said(mesh, [0], [])["mesh"], mesh.matrices
+    assert (np.reshape(unpacked["positions"], (-1, 3)) == mesh.surface.vertices).all()
+    assert (unpacked["start"], unpacked["index"]) == (stored.start.tolist(), stored.index.tolist())
+    assert unpacked["weights"] == stored.weights.values.tolist()
+    assert unpacked["areas"] == stored.areas.values.tolist()
+    original = laplacian.stiffness[mesh.ids][:, mesh.ids]
+    assert abs(stored.stiffness - original).max() < 1e-6 * abs(original).max()
+    if isinstance(laplacian.surface, PointCloud):
+        normals = 127 * laplacian.surface.normals[mesh.ids]
+        assert np.abs(np.reshape(unpacked["normals"], (-1, 3)) - normals).max() <= 0.5
+
+
 def test_an_unknown_precision_is_refused():
     with pytest.raises(ParameterError, match="24, float32, not '16'"):
         StoredMesh.of(tetrahedron(), "16")
@@ -158,6 +196,18 @@ def test_the_solver_of_a_page_equals_the_library(name, areas):
         assert worst(field(fields["biharmonic"]), biharmonic.from_source(source)) < 1e-9
         assert worst(field(fields["commute_time"]), commute_time.from_source(source)) < 1e-10
         assert worst(field(fields["geodesic"]), geodesic.distances(source)) < 1e-13
+
+
+def test_the_solver_of_a_page_with_matrices_equals_the_library(with_matrices):
+    """On what is stored to rounding, and on the original to that of single precision."""
+    laplacian, mesh = with_matrices
+    stored, sources = mesh.laplacian(laplacian.areas_kind), some_of(mesh.surface)
+    found = said(mesh, sources, ["biharmonic", "commute_time"])["answers"]
+    for name, kind in (("biharmonic", BiharmonicDistance), ("commute_time", CommuteTimeDistance)):
+        on_page, original = kind(stored), kind(laplacian)
+        for source, fields in zip(sources, found, strict=True):
+            assert worst(field(fields[name]), on_page.from_source(source)) < 1e-9
+            assert worst(field(fields[name]), original.from_source(int(mesh.ids[source]))[mesh.ids]) < 1e-6
 
 
 def test_small_distances_have_as_many_digits():
@@ -223,7 +273,7 @@ def test_steps_of_a_slider_are_sums_of_all_eigenpairs(name):
     mesh = StoredMesh.of(SURFACES[name])
     laplacian, sources = Laplacian(mesh.surface), some_of(mesh.surface)
     specs = [Spec.of("diffusion", t=t) for t in (1 / 15, 9.0, 0.01)]
-    found = said(mesh, sources, list(WEIGHTS), functions=stored_functions(laplacian, specs))
+    found = said(mesh, sources, list(WEIGHTS), functions=stored_functions(laplacian, specs, laplacian))
     for source, fields in zip(sources, found["answers"], strict=True):
         for step, weight in WEIGHTS.items():
             off = worst(field(fields[step]), dense(laplacian, weight, source))
@@ -232,13 +282,33 @@ def test_steps_of_a_slider_are_sums_of_all_eigenpairs(name):
     assert sum(text.startswith("Ordering the vertices, ") for text in found["said"]) >= 3
 
 
+def test_steps_of_a_slider_are_sums_of_all_eigenpairs_with_matrices_too(with_matrices):
+    mesh = with_matrices[1]
+    laplacian, sources, steps = mesh.laplacian("voronoi"), some_of(mesh.surface)[1:], ["diffusion@0.3", "power@1.5"]
+    for source, fields in zip(
+        sources,
+        said(mesh, sources, steps, functions=stored_functions(laplacian, [], laplacian))["answers"],
+        strict=True,
+    ):
+        for step in steps:
+            assert worst(field(fields[step]), dense(laplacian, WEIGHTS[step], source)) < 5e-8
+
+
+def test_units_of_sliders_are_those_of_the_library():
+    solid = Laplacian(TetrahedralMesh(*ball(300)))
+    functions = stored_functions(solid, [], solid)["functions"]
+    for distance, value in ((DiffusionDistance(solid, 1.0), 1.0), (PowerDistance(solid, 1.5), 1.5)):
+        steps = functions[type(distance).__name__.removesuffix("Distance").lower()]["steps"]
+        assert next(each["unit"] for each in steps if each["value"] == value) == distance.unit
+
+
 @pytest.mark.parametrize("areas", ["voronoi", "barycentric"])
 def test_steps_of_a_slider_are_right_where_vertices_have_no_area(areas):
     mesh = StoredMesh.of(slivers(), "float32")
     laplacian = Laplacian(mesh.surface, areas)
-    (found,) = said(mesh, [5], ["diffusion@0.3", "power@1.5"], areas=areas, functions=stored_functions(laplacian, []))[
-        "answers"
-    ]
+    (found,) = said(
+        mesh, [5], ["diffusion@0.3", "power@1.5"], areas=areas, functions=stored_functions(laplacian, [], laplacian)
+    )["answers"]
     assert worst(field(found["diffusion@0.3"]), DiffusionDistance(laplacian, 0.3).from_source(5)) < 1e-7
     assert worst(field(found["power@1.5"]), PowerDistance(laplacian, 1.5).from_source(5)) < 1e-6
 

@@ -4,19 +4,27 @@ import json
 import math
 import shutil
 import subprocess
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 import pyvista as pv
 
-from app.document.looks import Isolines, Shading
+from app.document.document import comparison
+from app.document.looks import Clip, Isolines, Shading
+from app.marks.primitives import PointMark, cut_away_words
 from app.samples import mesh_path
 from app.scene.camera import Projection, standard_camera
+from app.scene.clipping import clip_plane, cut_through
 from app.scene.drawable import copies_of, crease_of, drawable
 from app.scene.levels import levels
-from bihdist_core import read_surface
+from app.scene.splats import at_corners
+from app.web.export import _cut
+from app.web.stored_mesh import StoredMatrices, StoredMesh
+from bihdist_core import Laplacian, PointCloud, TetrahedralMesh, read_surface
 from bihdist_core.distances.difference import difference_in_unit
+from tests.core.test_tetrahedra import ball
 from tests.shapes import bumpy, grid, sphere, torus
 
 VIEWER = Path(__file__).parents[2] / "app" / "web" / "viewer"
@@ -273,6 +281,105 @@ def test_each_face_of_a_flat_surface_has_corners_of_its_own_and_of_a_smooth_one_
     s = bumpy(200)
     assert len(ask("drawn", mesh={**as_mesh(s), "crease": 0.0})["copies"]) == 3 * len(s.faces) - 200
     assert ask("drawn", mesh={**as_mesh(s), "crease": None})["copies"] == []
+
+
+# ---------------------------------------------------------------------- points without faces
+@pytest.fixture(scope="module")
+def cloud():
+    """Points at random on a wave, with normals as pages have them."""
+    x, y = np.random.default_rng(3).random((2, 600))
+    cloud = PointCloud(np.stack([x, y, 0.1 * np.sin(4 * x)], axis=1), "wave")
+    rounded = np.rint(127 * cloud.normals)
+    vars(cloud)["normals"] = rounded / np.linalg.norm(rounded, axis=1)[:, None]
+    return cloud
+
+
+def as_points(cloud):
+    entries = StoredMatrices.of(Laplacian(cloud), np.arange(len(cloud.vertices)))
+    return {
+        "vertices": cloud.vertices.tolist(),
+        "normals": np.rint(127 * cloud.normals).astype(int).tolist(),
+        "start": entries.start.tolist(),
+        "index": entries.index.tolist(),
+    }
+
+
+def test_points_are_the_hexagons_of_the_window(cloud):
+    said, window = ask("drawn", mesh=as_points(cloud)), pv.wrap(drawable(cloud))
+    assert said["copies"] == copies_of(window).tolist()
+    assert said["corners"] == window.regular_faces.ravel().tolist()
+    x = cloud.vertices
+    radius = np.linalg.norm(np.ptp(x, axis=0)) / 2
+    places = np.reshape(said["places"], (-1, 3)) * radius + (x.min(axis=0) + x.max(axis=0)) / 2
+    away = np.abs(places - window.points).max(axis=1)
+    # Pages count neighbours whose entry in the matrix is tiny.
+    assert np.mean(away < 1e-6) > 0.97
+    assert away.max() < 1e-2
+
+
+def test_fields_are_continued_over_hexagons_as_in_the_window(cloud):
+    field = np.hypot(cloud.vertices[:, 0], cloud.vertices[:, 1])
+    field[cloud.vertices[:, 1] > 0.8] = -1000
+    found = np.array(ask("continued", mesh=as_points(cloud), values=field.tolist(), none=-1000))
+    there = at_corners(drawable(cloud), field, -1000.0)
+    assert (there == -1000).sum() > 300
+    assert np.abs(found - there).max() < 1e-5
+
+
+def test_the_nearest_point_is_hit(cloud):
+    found = ask("projected", mesh=as_points(cloud), view=view_of(cloud)[1], aspect=1.0, acts=[])
+    hits = np.array([each["hit"] for each in found], float)
+    assert (hits == np.arange(600)).mean() > 0.98
+    assert np.mean([each["seen"] for each in found]) > 0.98
+
+
+# ---------------------------------------------------------------------- clip planes
+@pytest.fixture(scope="module")
+def solid():
+    """A solid that a plane cuts, as it is on a page, and where."""
+    surface, clip = TetrahedralMesh(*ball(300), "ball").shape, Clip((0.0, 0.0, 1.0), 0.6)
+    plane = clip_plane(clip, surface)
+    mesh = StoredMesh.of(surface, "float32", Laplacian(TetrahedralMesh(*ball(300))))
+    stored, at = mesh.surface, _cut(surface, replace(comparison("ball"), clip=clip), mesh)
+    given = {**as_mesh(stored), "clip": [*plane.normal, plane.offset], "cut": at}
+    return mesh, given, cut_through(surface, plane)
+
+
+def test_a_cut_through_a_solid_is_the_windows_with_the_values_between(solid):
+    mesh, given, cut = solid
+    k, x = len(cut.points), mesh.surface.vertices
+    said = ask("drawn", mesh=given)
+    assert np.reshape(said["corners"], (-1, 3))[-len(cut.faces) :].tolist() == (cut.faces + len(x)).tolist()
+    places = np.reshape(said["places"], (-1, 3))[-k:] * np.linalg.norm(np.ptp(x, axis=0)) / 2
+    assert np.abs(places + (x.min(axis=0) + x.max(axis=0)) / 2 - cut.points).max() < 3e-4
+    assert np.allclose(np.reshape(said["normals"], (-1, 3))[-k:], cut.normal, atol=1e-6)
+    values = np.sin(3 * np.arange(len(x)))
+    values[::7] = -1000
+    original = np.empty(len(x))
+    original[mesh.ids] = values
+    found = ask("between", mesh=given, values=values.tolist(), none=-1000)
+    np.testing.assert_allclose(found, cut.at_points(original, -1000.0), atol=1e-5)
+
+
+def test_what_is_behind_a_cut_is_neither_hit_nor_seen(solid):
+    mesh, given, _ = solid
+    x, plane = mesh.surface.vertices, given["clip"]
+    view = {"position": [0, 0, 9], "focal": [0, 0, 0], "up": [0, 1, 0], "angle": 20, "parallel": None}
+    found = ask("projected", mesh=given, view=view, aspect=1.0, acts=[])
+    behind = (x[:, 2] < plane[3] - 0.2) & (np.hypot(x[:, 0], x[:, 1]) < 0.5)
+    assert behind.sum() > 30
+    assert not any(each["hit"] is not None or each["seen"] for each, k in zip(found, behind, strict=True) if k)
+
+
+@pytest.mark.parametrize(("source", "pins"), [(0, []), (0, [1]), (0, [1, 2]), (3, [1]), (3, [1, 0]), (3, [])])
+def test_what_is_cut_away_is_said_as_in_the_window(source, pins):
+    vertices = [[9.0, 0, 0], [8.0, 1, 0], [7.0, 0, 1], [0.0, 0, 0]]
+    mesh = {"vertices": vertices, "faces": [[0, 1, 2], [1, 2, 3]], "clip": [1, 0, 0, 4]}
+    marks = [PointMark(source), *(PointMark(vertex, number=k) for k, vertex in enumerate(pins, 1))]
+    gone = [mark for mark in marks if mark.vertex != 3]
+    words = cut_away_words(gone) if gone else ""
+    expected = [words, words.replace(" by the clip plane", "")] if gone else []
+    assert ask("cut_away", mesh=mesh, source=source, pins=pins) == expected
 
 
 # ---------------------------------------------------------------------- links and colours

@@ -10,12 +10,15 @@ for (const name of readdirSync(process.argv[2]).filter((name) => name.endsWith("
   writeFileSync(join(folder, name), readFileSync(join(process.argv[2], name)));
 const use = (name) => import(join(folder, name));
 
-const shapeOf = async ({ vertices, faces, components, crease = null }) => {
+const shapeOf = async ({ vertices, faces = [], components, crease = null, clip = null, cut = null, normals, start, index }) => {
   const { Shape } = await use("shape.js"), [positions, corners] = [vertices.flat(), faces.flat()];
+  const ofPoints = normals && {
+    normals: Int8Array.from(normals.flat()), start: Int32Array.from(start), index: Int32Array.from(index),
+  };
   return new Shape({
     n: vertices.length, m: faces.length, positions: Float64Array.from(positions), faces: Int32Array.from(corners),
-    faceComponents: Int32Array.from(components ?? [0, faces.length]),
-  }, { crease, backs: false });
+    faceComponents: Int32Array.from(components ?? [0, faces.length]), ...ofPoints,
+  }, { crease, backs: false, clip, cut });
 };
 
 const answers = {
@@ -46,7 +49,7 @@ const answers = {
     return addressOf(state);
   },
   async hits({ mesh, rays }) {
-    const { FaceTree } = await use("picking.js"), shape = await shapeOf(mesh), tree = new FaceTree(shape);
+    const { FaceTree } = await use("picking.js"), shape = await shapeOf(mesh), tree = new FaceTree(shape.met);
     return rays.map(([origin, direction]) => {
       const hit = tree.hit({ origin: shape.inward(origin), direction });
       return hit && { vertex: hit.vertex, point: shape.outward(hit.point) };
@@ -66,7 +69,24 @@ const answers = {
   },
   async drawn({ mesh }) {
     const { corners, copies, places, normals } = (await shapeOf(mesh)).drawn;
-    return { corners: [...corners], copies, places: [...places], normals: [...normals] };
+    return { corners: [...corners], copies: [...copies], places: [...places], normals: [...normals] };
+  },
+  async continued({ mesh, values, none }) {
+    const { continued } = await use("splats.js"), { n, drawn } = await shapeOf(mesh);
+    const all = new Float32Array(7 * n);
+    all.set(values);
+    continued(all, n, drawn, none);
+    return [...all.subarray(n)];
+  },
+  async between({ mesh, values, none }) {
+    const { putBetween } = await use("cut.js"), { drawn } = await shapeOf(mesh), all = new Float32Array(drawn.places.length / 3);
+    all.set(values);
+    putBetween(all, drawn.cut, none);
+    return [...all.subarray(drawn.cut.first)];
+  },
+  async cut_away({ mesh, source, pins }) {
+    const { cutAwayWords } = await use("marks.js"), shape = await shapeOf(mesh), ids = mesh.vertices.map((_, k) => k);
+    return cutAwayWords({ sight: { shape }, mesh: { ids }, source, pins: pins.map((vertex) => ({ vertex })) });
   },
   async labels({ mesh, values }) {
     const { withLabels } = await use("labels.js"), { drawn } = await shapeOf(mesh);

@@ -8,8 +8,7 @@ from bihdist_core.sources.source import Source, SurfacePoint
 from bihdist_core.sources.words import short_words_of
 
 from ..document import Document, Point, check_unique, free_names
-from ..labels import check_colour, check_name, next_colour
-from ..part import Part
+from ..part import Part, check_colour, check_name, next_colour
 from ..removal import without_orphans
 
 MOST_PINS = 200

@@ -8,8 +8,7 @@ from bihdist_core.arrays import IntArray
 from bihdist_core.errors import ParameterError
 
 from ..document import Document, check_unique, free_names
-from ..labels import MARK_COLOURS, check_colour, check_name, next_colour
-from ..part import Part
+from ..part import MARK_COLOURS, Part, check_colour, check_name, next_colour
 from ..runs import ids_of, runs_of
 
 

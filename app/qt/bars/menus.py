@@ -22,8 +22,7 @@ from ..context import Context
 from ..files.files import Files
 from ..files.mesh_repairs import MeshRepairs
 from ..views import Views
-from .colour_menu import ColourMenu
-from .isoline_menu import IsolineMenu
+from .colour_menu import ColourMenu, IsolineMenu
 
 THUMBNAIL = 56
 
@@ -32,11 +31,11 @@ TURNS = (
     *(f"{way} {side}" for way in ("turn", "move") for side in ("left", "right", "up", "down")),
     *("nearer", "farther", "remove anchor", "accept pair"),
 )
-"""By the words of their acts."""
+"""Actions that turn and move the camera, by their words."""
 
 
 class LargeIcons(QtWidgets.QProxyStyle):
-    """For menus whose icons are pictures."""
+    """A style for menus whose icons are pictures."""
 
     def pixelMetric(self, metric: Any, option: Any = None, widget: Any = None) -> int:
         if metric == QtWidgets.QStyle.PixelMetric.PM_SmallIconSize:
@@ -45,7 +44,7 @@ class LargeIcons(QtWidgets.QProxyStyle):
 
 
 class NoUnderlines(QtWidgets.QProxyStyle):
-    """For menu bars: their keys are found without."""
+    """A style for menu bars without underlined letters."""
 
     def styleHint(self, hint: Any, option: Any = None, widget: Any = None, returned: Any = None) -> int:
         if hint == QtWidgets.QStyle.StyleHint.SH_UnderlineShortcut:
@@ -109,21 +108,8 @@ class Menus:
             bar.addMenu(name) for name in ("&File", "&Edit", "&View", "&Panels", "&Tools", "&Help")
         )
         self._of_meshes = (panels, tools)
-        self._fill(
-            file,
-            [
-                "open",
-                self.recent,
-                self.samples,
-                "close mesh",
-                None,
-                "open beside",
-                "close beside",
-                None,
-                "add field",
-                None,
-            ],
-        )
+        self._fill(file, ["open", self.recent, self.samples, "close mesh", None])
+        self._fill(file, ["open beside", "close beside", None, "add field", None])
         self.operators = self._choices(
             "Operator", lambda word: context[MeshRepairs].choose_operator(word), OPERATORS.items()
         )
@@ -135,10 +121,7 @@ class Menus:
         self._fill(edit, ["copy camera", "paste camera", None, "clear by-products", "clear surface", None])
         self._fill(edit, ["preferences"])
         # What the tool bar's menu shows one below the other has submenus here, so that all is seen on small screens.
-        self._fill(
-            view,
-            ["reset", standard, self.up, keys, None, *cameras, None, *at_pointer, None],
-        )
+        self._fill(view, ["reset", standard, self.up, keys, None, *cameras, None, *at_pointer, None])
         self._fill(view, [*docks("View"), None])
         self._fill(view, [self.isolines, self.colours, self.range, self.shading, None, self.theme, "full screen"])
         edits = (f"panel {word}" for word in panel_edits() if word != ADD)
@@ -148,7 +131,7 @@ class Menus:
         self._fill(about, ["keys", "guide", None, "about"])
 
     def allow(self, has_mesh: bool) -> None:
-        """How fields are shown can be chosen while there are some; menus without any use are not there before."""
+        """Enable the menus that need a mesh; without one, those of panels and tools are hidden."""
         for menu in self._of_meshes:
             menu.menuAction().setVisible(has_mesh)
         for menu in (self.isolines, self.colours, self.range, self.shading, self.up, self.repairs):
@@ -198,13 +181,9 @@ class Menus:
     def _fill_recent(self) -> None:
         self.recent.clear()
         for path in remembered.recent():
-            action = self.recent.addAction(_shortened(path))
+            action = self.recent.addAction(path if len(path) <= 70 else f"… {path[-68:]}")
             action.setToolTip(path)
             action.setProperty("path", path)
             action.triggered.connect(lambda *_, path=path: self._context[Files].open(path))
         if self.recent.isEmpty():
             self.recent.addAction("Nothing yet").setEnabled(False)
-
-
-def _shortened(path: str) -> str:
-    return path if len(path) <= 70 else f"… {path[-68:]}"

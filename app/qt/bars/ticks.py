@@ -7,13 +7,12 @@ from ..context import Context
 from ..files.mesh_repairs import MeshRepairs
 from ..look.look import LOOK
 from ..views import Views
-from .colour_menu import colours_in_words
-from .isoline_menu import isolines_in_words
+from .colour_menu import colours_in_words, isolines_in_words
 from .menus import Menus
 from .tool_bar import ToolBar
 
 RANGE_NAMES = {"own": "Own", "shared": "Shared", "fraction": "Fraction", "typed": "Typed"}
-"""For the button: how the entries of the menu begin."""
+"""The first words of the menu's entries, for the button."""
 
 
 class Ticks:

@@ -9,8 +9,7 @@ from qtpy import QtCore, QtGui, QtWidgets
 
 from ..context import Context
 from ..look.look import LOOK
-from ..source_box import SourceBox
-from ..typed_source import TypedSource
+from ..typed_source import SourceBox, TypedSource
 from .menus import Menus
 from .tool_button import FULL, ICONS, VALUES, ToolButton
 

@@ -1,7 +1,6 @@
 """Selections on all panels, and the brush that paints them on the surface."""
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
 
 import numpy as np
 from qtpy import QtCore, QtGui, QtWidgets
@@ -14,15 +13,13 @@ from bihdist_core.progress import Progress
 from ...document.document import free_names
 from ...document.runs import ids_of
 from ...document.shared_parts.selections import Selections, select
+from ...scene.picking import Hit
 from ...scene.style import PINS
 from ..context import Context
 from ..held_keys import HeldKeys
 from ..look.form import describe
 from ..panels.events import BrushLift, BrushTouch
-
-if TYPE_CHECKING:
-    from ...scene.picking import Hit
-    from ..panels.panel import DistancePanel
+from ..panels.panel import DistancePanel
 
 RADII = (4, 28)
 """Limits of the radius in logical pixels; a cursor can be no larger."""
@@ -104,7 +101,7 @@ class Brushing(QtCore.QObject):
         session.show(after)
 
     @property
-    def _panels(self) -> "list[DistancePanel]":
+    def _panels(self) -> list[DistancePanel]:
         """The panels of the first surface, on which alone the brush paints."""
         return [panel for panel in self._grid.panels if panel.surface == self._grid.camera_controller.surface]
 
@@ -156,7 +153,7 @@ class Brushing(QtCore.QObject):
         if self._is_lifted:
             self._lift()
 
-    def _touch(self, hit: "Hit", pixel: float) -> None:
+    def _touch(self, hit: Hit, pixel: float) -> None:
         surface = self._shown
         if surface is None:
             return

@@ -15,8 +15,7 @@ from bihdist_core.arrays import AnyArray
 from ...drawing.chart import LEAST_APART, Axis, Ink, Plot, tick_shapes
 from ...drawing.painters.qt import box_of, paint, rgba_of, text_width
 from ...drawing.shapes import Box, Path, Pen, Shape, Text, disc, rounded
-from ..look.look import LOOK
-from ..look.painting import smooth_painter
+from ..look.look import LOOK, smooth_painter
 from ..panels.flat_button import paint_ring
 
 FONT, GAP = 12.0, 8 / 12

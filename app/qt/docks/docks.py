@@ -7,8 +7,7 @@ from ...document.tools import docked_tools
 from ..context import Context
 from ..files.session_actions import SessionFile
 from ..held_keys import HeldKeys
-from .dock import Dock
-from .instrument import Instrument
+from .instrument import Dock, Instrument
 
 NARROW = 1_100
 """Width of the window, in logical pixels, below which the docks at the right are tabs."""

@@ -6,8 +6,7 @@ from typing import ClassVar
 from qtpy import QtCore, QtGui, QtWidgets
 
 from ...drawing.painters.qt import number_width, paint_number
-from ..look.look import LOOK
-from ..look.painting import baseline, paint_elided, smooth_painter
+from ..look.look import LOOK, baseline, paint_elided, smooth_painter
 from .chart import paint_dot
 
 DOTTED = 14.0

@@ -1,11 +1,12 @@
-"""Tables and scrolled contents with the background of a dock."""
+"""Tables, lists of rows and scrolled contents with the background of a dock."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Hashable, Iterable, Sequence
+from typing import Any
 
 from qtpy import QtCore, QtWidgets
 
 from ...document.quantities import Quantity, column_names, quantity_name
-from ..look.layouts import in_column
+from ..look.form import in_column
 from ..look.look import LOOK
 
 CELL_PADS = 14
@@ -43,7 +44,7 @@ class PanelTable(QtWidgets.QTableWidget):
         self.horizontalHeader().setMinimumSectionSize(1)
 
     def make_cells(self, rows: int, columns: int) -> None:
-        """Make empty cells, so many across and down."""
+        """Make a grid of empty cells."""
         self.setRowCount(rows)
         self.setColumnCount(columns)
         for row in range(rows):
@@ -98,3 +99,36 @@ def fill(dock: QtWidgets.QWidget, inside: QtWidgets.QWidget) -> None:
     for widget in (inside, scrolled.viewport()):
         widget.setAutoFillBackground(False)
     in_column(scrolled, of=dock, spacing=0)
+
+
+class RowList(QtWidgets.QVBoxLayout):
+    """Rows one below the other; `rows` has them in their order, by the words or ids that they are made for."""
+
+    def __init__(self, make: Callable[[Any], QtWidgets.QWidget], spacing: int = 0) -> None:
+        super().__init__()
+        self.setSpacing(spacing)
+        self._make = make
+        self.rows: dict[Any, Any] = {}
+
+    def show_rows(self, words: Iterable[Hashable]) -> None:
+        """Show a row for each of these words, in this order: rows of others go, and new ones are made."""
+        before = dict(self.rows)
+        self.rows.clear()
+        for place, word in enumerate(words):
+            row = self.rows[word] = before.pop(word, None) or self._make(word)
+            if self.indexOf(row) != place:
+                self.removeWidget(row)
+                self.insertWidget(place, row)
+        for gone in before.values():
+            gone.hide()
+            gone.deleteLater()
+
+    def beside(self, word: str, by: int) -> str:
+        """Return the word of the row that is `by` rows below, "" for none."""
+        words = list(self.rows)
+        place = words.index(word) + by
+        return words[place] if 0 <= place < len(words) else ""
+
+    def after_removal(self, word: str) -> str:
+        """Return the word of the row that takes the focus as this one is removed: the next, or the last."""
+        return self.beside(word, 1) or self.beside(word, -1)

@@ -9,9 +9,9 @@ from qtpy import QtCore, QtWidgets
 from bihdist_core.scalars import with_decimal_point
 
 from ...drawing.numbers import tick
+from ..look.controls import TextBox, mark_wrong
 from ..look.form import describe
 from ..look.look import LOOK
-from ..look.text_box import TextBox, mark_wrong
 
 
 @dataclass(frozen=True)

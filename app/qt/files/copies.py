@@ -13,8 +13,8 @@ from bihdist_core.distances.answers import Answer
 
 from ...document.file import recipe_text
 from ...document.file_names import file_name
+from ...document.option import curves_in
 from ...document.page import Recipe
-from ...document.starts import curves_in
 from ...figures import one_line
 from ...figures.draw import whole_picture
 from ...figures.export import Surfaces, figure_of
@@ -47,8 +47,8 @@ def copy_line(context: Context, recipe: Recipe, surfaces: Surfaces, is_python: b
     else:
         path = str(_kept(recipe, context.session.given))
         line = (one_line.recipe_python_line if is_python else one_line.recipe_command_line)(path, output)
-    QtWidgets.QApplication.clipboard().setText(line)
-    context.tell(f"{reason} The copied line uses a saved recipe." if reason else f"Copied: {_short(line)}")
+    short = line if len(line) <= SHOWN else f"{line[: SHOWN - 2]}…"
+    context.copy(line, f"{reason} The copied line uses a saved recipe." if reason else f"Copied: {short}")
     return line
 
 
@@ -118,7 +118,3 @@ def _kept(recipe: Recipe, given: Any) -> Path:
     with recipe_written(recipe, given, folder / name, version(), format=recipe.page.format):
         pass
     return folder / name
-
-
-def _short(line: str) -> str:
-    return line if len(line) <= SHOWN else f"{line[: SHOWN - 2]}…"

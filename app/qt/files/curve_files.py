@@ -7,7 +7,7 @@ from pathlib import Path
 
 from qtpy import QtCore
 
-from bihdist_core import BihdistError, Curve, OutputError, ParameterError
+from bihdist_core import Curve, OutputError, ParameterError
 from bihdist_core.file_content import file_json
 from bihdist_core.file_output import atomic_write
 from bihdist_core.sources.words import curve_text, read_curve
@@ -35,15 +35,10 @@ class CurveFiles(QtCore.QObject):
 
     def take(self, path: str) -> None:
         """Make the curve in a file the source, or tell why that is not possible."""
-        context = self._context
-        try:
+        with self._context.errors_shown():
             curve = read_curve(path)
-        except ParameterError as error:
-            context.fail(error)
-            return
-        if context.session.loaded() is None:
-            context.fail(f"{os.path.basename(path)} is a source curve; open its mesh first.")
-        else:
+            if self._context.session.loaded() is None:
+                raise ParameterError(f"{os.path.basename(path)} is a source curve; open its mesh first.")
             self.taken.emit(curve, {curve: os.path.abspath(path)})
 
     def save_source(self, panel: int) -> bool:
@@ -64,12 +59,10 @@ class CurveFiles(QtCore.QObject):
         path = ask_path(self._context, "Save the curve", name, (".json",))
         if not path:
             return False
-        try:
+        with self._context.errors_shown():
             self.save(curve, path)
-        except BihdistError as error:
-            self._context.fail(error)
-            return False
-        return True
+            return True
+        return False
 
     def save(self, curve: Curve, path: str) -> None:
         """Write a curve to a file; OutputError if it cannot be written."""

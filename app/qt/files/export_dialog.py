@@ -19,9 +19,8 @@ from ...figures.look_options import suits_one_bar
 from ...figures.size import NAMED, is_column
 from ...version import version
 from ..context import Context
-from ..look.form import Choice
+from ..look.form import Choice, quiet_label
 from ..look.icons import put_icon
-from ..look.layouts import quiet_label
 from .job_dialog import FileKind
 from .looks_dialog import LooksDialog
 from .preview import PreviewPane

@@ -1,4 +1,4 @@
-"""Files that are drawn in the background, and the badge in the status bar with their progress."""
+"""Files that are drawn in the background, charts among them, and the badge in the status bar with their progress."""
 
 import os
 import threading
@@ -6,19 +6,20 @@ import time
 from collections.abc import Callable
 from functools import partial
 
-from qtpy import QtCore, QtGui, QtWidgets
+from qtpy import QtCore, QtWidgets
 
 from bihdist_core import OutputError
+from bihdist_core.file_output import check_output
 
 from ...document.page import Page
-from ...drawing.painters.qt import number_width, paint_number
 from ...figures.worker import FigureJob
-from ..look.bare_button import BareButton
-from ..look.icons import pixmap, put_icon
-from ..look.layouts import in_row
-from ..look.look import LOOK
-from ..look.painting import baseline, paint_rounded, smooth_painter
+from ...scene.style import style_of
+from ..context import Context
+from ..look.form import in_row
+from ..look.icons import put_icon
+from ..look.theme import DARK, LIGHT, Theme, lightness
 from .preview import PreviewRenderer
+from .saving import ask_path
 
 PATIENCE = 5.0
 """Seconds that closing waits for drawings to stop; what still goes on then stops by itself, without a file."""
@@ -187,14 +188,19 @@ class ExportBadge(QtWidgets.QWidget):
         self.setSizePolicy(QtWidgets.QSizePolicy.Policy.Maximum, QtWidgets.QSizePolicy.Policy.Fixed)
         self.menu = QtWidgets.QMenu(self)
         self._listed: list[tuple[Export, QtWidgets.QAction]] = []
-        self.share = _Share(self)
+        self.share = QtWidgets.QToolButton(self, iconSize=QtCore.QSize(12, 12), styleSheet="padding: 1px 6px;")
+        self.share.setFocusPolicy(QtCore.Qt.FocusPolicy.TabFocus)
+        self.share.setProperty("keys", True)
+        self.share.setLayoutDirection(QtCore.Qt.LayoutDirection.RightToLeft)  # the arrow stands after the words
         self.share.clicked.connect(self.open_menu)
-        self.menu.aboutToHide.connect(self.share.update)
+        put_icon(self.share, "chevron", "quiet")
+        self.bar = QtWidgets.QProgressBar(self, textVisible=False)
+        self.bar.setFixedWidth(56)
         self.stop = QtWidgets.QToolButton(self, iconSize=QtCore.QSize(14, 14))
         self.stop.setFixedSize(22, 22)
         self.stop.clicked.connect(self._cancel_one)
         put_icon(self.stop, "close")
-        in_row((self.share, 1), self.stop, of=self, spacing=2)
+        in_row((self.share, 1), self.bar, self.stop, of=self, spacing=2)
         exports.changed.connect(self._show)
         self._show()
 
@@ -202,7 +208,7 @@ class ExportBadge(QtWidgets.QWidget):
         return QtCore.QSize(0, 22)  # rather cut off than a wider window
 
     def open_menu(self) -> None:
-        """Return the running exports, each with an entry that cancels it."""
+        """List the running exports, each as an entry that cancels it."""
         self._list()
         height = self.menu.sizeHint().height()
         self.menu.popup(self.mapToGlobal(QtCore.QPoint(0, -height - 2)))
@@ -217,7 +223,11 @@ class ExportBadge(QtWidgets.QWidget):
         if not running:
             self.menu.close()
             return
-        self.share.show_share(*_summary(running), has_menu=len(running) > 1)
+        words, percent = _summary(running)
+        style = QtCore.Qt.ToolButtonStyle
+        self.share.setText(words)
+        self.share.setToolButtonStyle(style.ToolButtonTextOnly if len(running) == 1 else style.ToolButtonTextBesideIcon)
+        self.bar.setValue(percent)
         self.stop.setVisible(len(running) == 1)
         self.stop.setEnabled(not running[0].is_stopping)
         self.stop.setToolTip(f"Cancel {running[0].what.lower()} {os.path.basename(running[0].path)}")
@@ -249,75 +259,33 @@ class ExportBadge(QtWidgets.QWidget):
             action.setEnabled(not export.is_stopping)
 
 
-def _summary(running: list[Export]) -> tuple[str, float]:
-    """Return the text of the badge, and the fraction of its bar."""
-    mean, first = sum(export.fraction for export in running) / len(running), running[0]
+def _summary(running: list[Export]) -> tuple[str, int]:
+    """Return the text of the badge, and the percentage of its bar."""
+    percent, first = int(100 * sum(export.fraction for export in running) / len(running)), running[0]
     if len(running) > 1:
-        return f"{len(running)} exports, {int(100 * mean)} %", mean
-    return f"{first.what}, cancelling…" if first.is_stopping else f"{first.what} {first.percent} %", mean
+        return f"{len(running)} exports, {percent} %", percent
+    return f"{first.what}, cancelling…" if first.is_stopping else f"{first.what} {percent} %", percent
 
 
-class _Share(BareButton):
-    """A text and a progress bar, painted with digits of one width, and only when either changes."""
+FORMATS = (".pdf", ".png", ".svg", ".eps")
 
-    PAD, GAP, BAR, CHEVRON = 6, 8, 56, 14
 
-    def __init__(self, parent: QtWidgets.QWidget) -> None:
-        super().__init__(parent)
-        self._fraction, self._has_menu = 0.0, False
-        LOOK.changed.connect(self._look_anew)
+def paper_theme(context: Context) -> Theme:
+    """Return the theme that suits the background of a figure style."""
+    style = style_of(context.page.style, context.document.colours)
+    ground = "#" + "".join(f"{round(255 * x):02X}" for x in style.background)
+    return LIGHT if lightness(ground) > 0.5 else DARK
 
-    def _look_anew(self) -> None:
-        self.updateGeometry()
-        self.update()
 
-    def show_share(self, words: str, fraction: float, has_menu: bool) -> None:
-        """Show a text with a bar at a fraction from 0 to 1, and an arrow if there is a menu."""
-        if (words, has_menu) != (self.text(), self._has_menu):
-            self._has_menu = has_menu
-            self.setText(words)
-            self.setAccessibleName(words)
-            self.updateGeometry()
-        self._fraction = fraction
+def save_figure(
+    context: Context, title: str, name: str, save: Callable[..., None], figure: Callable[[], object], path: str = ""
+) -> None:
+    """Save the chart of `figure()` in the background; asks for a path if none is given."""
+    from ...figures.chart_page import draw_chart
 
-    def sizeHint(self) -> QtCore.QSize:
-        wide = number_width(LOOK.font(12.5), self._widest()) + self.GAP + self.BAR + 2 * self.PAD
-        return QtCore.QSize(round(wide) + (self.CHEVRON if self._has_menu else 0), 22)
-
-    def minimumSizeHint(self) -> QtCore.QSize:
-        return QtCore.QSize(0, 22)
-
-    def _widest(self) -> str:
-        """Return the text with room for three digits, so that the bar does not move."""
-        head, _, last = self.text().removesuffix(" %").rpartition(" ")
-        return f"{head} 100 %" if last.isdigit() else self.text()
-
-    def paintEvent(self, event: QtGui.QPaintEvent) -> None:
-        theme, painter = LOOK.theme, smooth_painter(self)
-        box = QtCore.QRectF(self.rect()).adjusted(1, 1, -1, -1)
-        if self.isDown() or self.is_pointed:
-            paint_rounded(painter, box, 6, theme.pressed if self.isDown() else theme.hover)
-        if self.has_keys:
-            paint_rounded(painter, box, 6, line=theme.accent, width=2)
-        painter.setFont(LOOK.font(12.5))
-        painter.setPen(QtGui.QColor(theme.text))
-        right = self.width() - self.PAD - (self.CHEVRON if self._has_menu else 0)
-        at = QtCore.QPointF(self.PAD, baseline(painter, self.height() / 2))
-        if number_width(painter.font(), self.text()) <= right - self.PAD:
-            paint_number(painter, at.x(), at.y(), self.text())
-        else:
-            metrics, cut = QtGui.QFontMetricsF(painter.font()), QtCore.Qt.TextElideMode.ElideRight
-            painter.drawText(at, metrics.elidedText(self.text(), cut, right - self.PAD))
-        left = self.PAD + number_width(painter.font(), self._widest()) + self.GAP
-        self._paint_bar(painter, QtCore.QRectF(left, self.height() / 2 - 2, right - left, 4))
-        if self._has_menu:
-            arrow = pixmap("chevron", theme.quiet, self.devicePixelRatioF(), 12)
-            painter.drawPixmap(QtCore.QPointF(right + 2, self.height() / 2 - 6), arrow)
-
-    def _paint_bar(self, painter: QtGui.QPainter, box: QtCore.QRectF) -> None:
-        if box.width() >= 16:
-            # Where the ground is that of the pointer, the usual line would be lost in it.
-            paint_rounded(painter, box, 2, LOOK.theme.strong if self.is_pointed else LOOK.theme.border)
-            painter.setClipRect(QtCore.QRectF(box.left(), box.top(), box.width() * self._fraction, box.height()))
-            paint_rounded(painter, box, 2, LOOK.theme.accent)
-            painter.setClipping(False)
+    with context.errors_shown():
+        shown = figure()
+        path = path or ask_path(context, title, name, FORMATS)
+        if path:
+            check_output(path, FORMATS)
+            context[Exports].start(partial(draw_chart, save, shown, path), path, "Figure")

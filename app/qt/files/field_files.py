@@ -1,15 +1,18 @@
-"""Fields in files: those of other programs are shown, and those of panels are saved."""
+"""Fields in files: those of other programs are shown, and those of panels are saved, as are their isolines."""
 
 import os
 from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
 from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from bihdist_core import Surface
+from bihdist_core.analysis.isoline_tracing import ISOLINE_FORMATS, isolines, write_isolines
 from bihdist_core.arrays import ByteArray, FloatArray
 from bihdist_core.counts import counted
+from bihdist_core.errors import ParameterError
 from bihdist_core.formats.field_output import FIELD_FORMATS, write_fields
 from bihdist_core.formats.mesh_names import GZIP, holds_points
 from bihdist_core.formats.surface_output import COLOURED_FORMATS, write_coloured
@@ -20,13 +23,12 @@ from ...document.edits import show_field
 from ...document.file_names import field_names, file_name
 from ...document.quantities import quantity_name
 from ...document.second_mesh_edits import letter_of
-from ...drawing.numbers import number
+from ...drawing.numbers import number, percent
 from ...scene.style import style_of
 from ...session.bar_ends import bar_end
 from ..context import Context
 from ..pages.messages import Which
-from .saving import ask_file, file_filter
-from .writing import Writing
+from .saving import Writing, ask_file, file_filter
 
 if TYPE_CHECKING:
     from bihdist_core.formats.vertex_arrays import VertexArray
@@ -186,3 +188,58 @@ class FieldFiles:
             return f"{name} has no field yet."
         answer = session.shown[panel.id].answer
         return f"{name} shows colours, and has no field." if answer.colours is not None else answer.failure
+
+
+@dataclass(frozen=True, eq=False)
+class Levels:
+    """The isolines of a panel as they are saved.
+
+    Attributes
+    ----------
+    surface, field
+        The surface, and the field (n,) on it.
+    name
+        The beginning of the file's name.
+    label
+        The label of the field.
+    maximum
+        The value that 100 % stands for.
+    values
+        The values of the isolines.
+    """
+
+    surface: Surface
+    field: FloatArray
+    name: str
+    label: str
+    maximum: float
+    values: FloatArray
+
+
+def levels_of(context: Context, panel: int) -> Levels | None:
+    """Return the isolines of a panel; None where it has no field."""
+    shown, loaded = context.session.shown.get(panel), context.session.loaded(panel)
+    if shown is None or loaded is None or shown.answer.field is None:
+        return None
+    answer, field, document = shown.answer, shown.answer.field, context.document
+    (name,) = field_names(document, [document.panel(panel)])
+    values = np.array(context.grid.panel(panel).view.scene.field_actor.levels.values)
+    maximum = 100.0 if percent(answer.unit) else answer.maximum
+    return Levels(loaded.surface, field, name, answer.label, maximum, values)
+
+
+def write_levels(path: str, levels: Levels) -> None:
+    """Write the isolines that the panel shows; see `write_isolines`."""
+    if not len(levels.values):
+        raise ParameterError("This panel shows no isolines; choose some in the Isolines menu first.")
+    write_isolines(path, isolines(levels.surface, levels.field, levels.values))
+
+
+def save_isolines(context: Context, panel: int, path: str = "") -> None:
+    """Save the isolines of a panel; asks for a path if none is given."""
+    levels = levels_of(context, panel)
+    if levels is None:
+        context.fail("This panel has no field yet.")
+        return
+    name = file_name([levels.surface.name], "isolines", levels.name)
+    context[Writing].save("Save isolines", name, ISOLINE_FORMATS, partial(write_levels, levels=levels), path)

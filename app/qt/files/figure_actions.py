@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, TypeVar
 
 from qtpy import QtCore
 
-from bihdist_core import BihdistError
 from bihdist_core.distances.answers import Answer
 
 from ...document.document import Document
@@ -90,10 +89,8 @@ def copy(context: Context, what: str) -> None:
     """Copy the figure that would be exported, as a "picture", a "command" or "python"."""
     recipe = _complete_recipe(context, partial(copy, context, what), "It is copied")
     if recipe is not None:
-        try:
+        with context.errors_shown():
             _copy(context, what, recipe)
-        except BihdistError as error:
-            context.fail(error)
 
 
 def _copy(context: Context, what: str, recipe: Recipe) -> None:

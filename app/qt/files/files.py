@@ -4,7 +4,7 @@ import os
 
 from qtpy import QtCore, QtGui
 
-from bihdist_core import BihdistError, OutputError
+from bihdist_core import OutputError
 from bihdist_core.file_output import atomic_write, check_output
 
 from ...document.file_names import file_name
@@ -74,10 +74,8 @@ class Files(QtCore.QObject):
         name = file_name([self._context.session.mesh().surface.name], "window")
         path = ask_path(self._context, "Save a picture of the window", name, (".png",))
         if path:
-            try:
+            with self._context.errors_shown():
                 self.save_screenshot(path)
-            except BihdistError as error:
-                self._context.fail(error)
 
     def save_screenshot(self, path: str) -> None:
         """Save the window as a PNG; OutputError if it cannot be written, in which case an old file stays."""

@@ -13,10 +13,9 @@ from ...document.file_names import file_name
 from ...document.page import Recipe
 from ...figures.export import Surfaces
 from ..context import Context
-from ..look.form import Form, closing_buttons, describe, error_label
-from ..look.layouts import hairline, in_column, in_row, push_button
+from ..look.controls import Segments
+from ..look.form import Form, closing_buttons, describe, error_label, hairline, in_column, in_row, push_button
 from ..look.look import LOOK
-from ..look.segments import Segments
 from .exports import Exports
 
 WIDTH = 388
@@ -98,7 +97,7 @@ class JobDialog(QtWidgets.QDialog):
             self.form.add(in_row(self.kinds, *self.beside_kinds(), None, spacing=10))
 
     def beside_kinds(self) -> list[QtWidgets.QWidget]:
-        """Return the widget beside the formats."""
+        """Return the widgets beside the formats."""
         return []
 
     def check(self) -> None:

@@ -12,8 +12,7 @@ from ...figures.export import Surfaces
 from ...figures.movie import SWING, Movie, write_movie
 from ...figures.movie_files import check_movie, encoder_lack
 from ..context import Context
-from ..look.form import Count, describe
-from ..look.layouts import in_row, push_button, quiet_label
+from ..look.form import Count, describe, in_row, push_button, quiet_label
 from .job_dialog import FileKind, blamed_on
 from .looks_dialog import LooksDialog
 

@@ -12,8 +12,7 @@ from ...web.contents import Contents
 from ...web.export import EIGENPAIR_BYTES, check_size, eigenpair_bytes, needed_eigenpairs, size_words, write_page
 from ...web.stored_mesh import PRECISIONS
 from ..context import Context
-from ..look.form import Choice
-from ..look.layouts import quiet_label
+from ..look.form import Choice, quiet_label
 from .job_dialog import FileKind, JobDialog
 
 PRECISION_NAMES = dict(zip(PRECISIONS, ("24 bits", "Single precision"), strict=True))
@@ -41,7 +40,7 @@ class PageDialog(JobDialog):
         document = self._recipe.document
         contents = Contents.of(document)
         loaded = self._surfaces[document.surfaces[0].name]
-        check_size(loaded.surface.name, len(loaded.surface.vertices), loaded.mesh.path)
+        check_size(loaded.surface.name, len(loaded.surface.vertices), loaded.mesh.path, loaded.surface)
         needed = needed_eigenpairs(contents).values()
         size = eigenpair_bytes(sum(needed), len(loaded.surface.vertices))
         self._allowed = None if size <= EIGENPAIR_BYTES else max(needed)

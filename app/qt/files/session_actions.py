@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 from qtpy import QtCore, QtWidgets
 
-from bihdist_core import BihdistError, ParameterError
+from bihdist_core import ParameterError
 from bihdist_core.formats.mesh_names import is_there
 from bihdist_core.sentences import with_and
 
@@ -261,12 +261,10 @@ class SessionFile(QtCore.QObject):
         return True
 
     def _is_done(self, save: Callable[[], None]) -> bool:
-        try:
+        with self._context.errors_shown():
             save()
-        except BihdistError as error:
-            self._context.fail(error)
-            return False
-        return True
+            return True
+        return False
 
     def may_close(self, ask: Callable[[str], str]) -> bool:
         """Whether the window may close: where it would lose something, `ask(question)` says "save", "discard" or

@@ -6,7 +6,7 @@ from bihdist_core import ParameterError
 from bihdist_core.scalars import with_decimal_point
 
 from ...figures.size import PRINT_DPI, Size
-from ..look.layouts import in_column, in_row, quiet_label
+from ..look.form import in_column, in_row, quiet_label
 from ..look.look import LOOK
 
 UNITS = {"mm": "millimetres", "px": "pixels"}

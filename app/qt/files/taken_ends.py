@@ -6,7 +6,6 @@ from typing import TYPE_CHECKING
 
 from qtpy import QtCore, QtWidgets
 
-from bihdist_core import BihdistError
 from bihdist_core.progress import Progress
 
 from ..context import Context
@@ -56,14 +55,11 @@ class TakenEnds(QtCore.QObject):
 
         self._end_waiting()
         context = self._context
-        try:
+        with context.errors_shown():
             document, sentence = with_limits_of(context.document, ends, os.path.basename(request[0]))
-        except BihdistError as error:
-            context.fail(error)
-            return
-        context.session.show(document)
-        context.tell(sentence)
-        self.taken.emit(sentence)
+            context.session.show(document)
+            context.tell(sentence)
+            self.taken.emit(sentence)
 
     def _refuse(self, request: list[str], sentence: str) -> None:
         self._end_waiting()

@@ -5,10 +5,10 @@ from collections.abc import Callable, Sequence
 
 from qtpy import QtCore, QtGui, QtWidgets
 
+from ..look.controls import lines_of
+from ..look.form import in_column, in_row
 from ..look.icons import pixmap, put_icon
-from ..look.layouts import in_column, in_row
 from ..look.look import LOOK
-from ..look.text_lines import lines_of
 
 QUESTION_SIGN = 32
 """Side of the icon in logical pixels."""

@@ -5,9 +5,9 @@ from dataclasses import replace
 from qtpy import QtCore, QtGui, QtWidgets
 
 from ...document.settings import PREFERENCES, Preferences, Setting
-from ..look.layouts import in_column, in_row, quiet_label
+from ..look.controls import Segments
+from ..look.form import in_column, in_row, quiet_label
 from ..look.look import LOOK
-from ..look.segments import Segments
 
 RESET = "Defaults restored."
 LABELS = 88

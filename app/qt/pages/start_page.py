@@ -6,11 +6,10 @@ from qtpy import QtCore, QtGui, QtWidgets
 
 from bihdist_core.formats.mesh_names import FREESURFER, MESH_FORMATS
 
+from ..look.controls import lines_of
+from ..look.form import in_column, in_row, quiet_label
 from ..look.icons import put_icon
-from ..look.layouts import in_column, in_row, quiet_label
-from ..look.look import LOOK
-from ..look.painting import paint_rounded, smooth_painter
-from ..look.text_lines import lines_of
+from ..look.look import LOOK, paint_rounded, smooth_painter
 from ..remembered import recent_files
 from .start_places import FIRST_SAMPLES, OpenButton, RecentRow, Tiles
 

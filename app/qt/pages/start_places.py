@@ -12,8 +12,7 @@ from qtpy import QtCore, QtGui, QtWidgets
 from bihdist_core.arrays import AnyArray
 
 from ...samples import mesh_path, sample_names, sample_title, thumbnail
-from ..look.look import LOOK
-from ..look.painting import paint_rounded, smooth_painter
+from ..look.look import LOOK, paint_rounded, smooth_painter
 from ..remembered import Recent
 from .messages import from_home
 

@@ -21,8 +21,7 @@ from ...drawing.shapes import Box, Path, Pen, Shape, Text, rounded
 from ...marks.primitives import LegendRow
 from ...scene.bands import bar_colours
 from ...scene.style import PAPER, Style
-from ..look.look import LOOK
-from ..look.painting import smooth_painter
+from ..look.look import LOOK, smooth_painter
 from ..look.theme import contrast
 from .bar_layout import UNDEFINED, Reading, lay_out
 
@@ -36,7 +35,7 @@ MOST_LABELS = 400
 """Labels that a legend may name."""
 
 TOOLTIP_LINES = 30
-"""Of a legend, before there is another column."""
+"""Lines of a legend in a column of the tool tip."""
 
 SWATCH_SIZE, ENTRY_GAP = 9.0, 14.0
 """Logical pixels of a colour in a legend, and between two entries."""

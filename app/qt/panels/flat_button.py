@@ -6,10 +6,9 @@ from typing import TypeAlias
 from qtpy import QtCore, QtGui, QtWidgets
 
 from ...drawing.painters.qt import number_width, paint_number
-from ..look.bare_button import BareButton
+from ..look.controls import BareButton
 from ..look.icons import pixmap
-from ..look.look import LOOK
-from ..look.painting import baseline, paint_rounded, smooth_painter
+from ..look.look import LOOK, baseline, paint_rounded, smooth_painter
 
 HEIGHT = 26
 PAD = 6

@@ -7,8 +7,7 @@ from qtpy import QtGui
 from bihdist_core.distances.answers import Answer
 
 from ...document.document import Document, Panel
-from ...marks.field_marks import starts
-from ...marks.marked_panel import MarkedPanel, marks_of_tools
+from ...marks.marked_panel import MarkedPanel, marks_of_tools, starts
 from ...marks.primitives import Caption
 from ...session.isoline_points import IsolinePoint, passed
 from ...session.questions import vertex_at
@@ -17,7 +16,7 @@ from .motion_state import MotionState
 from .panel import DistancePanel
 
 NOTHING = Answer(label="")
-"""Of a panel that has no answer yet."""
+"""The answer of a panel that has none yet."""
 
 SELECTED_MS = 600
 """After a selection has changed, until large surfaces are drawn with it in full; the next stroke may begin before."""

@@ -15,10 +15,9 @@ from ...document.quantities import Difference, Quantity, kind_name, quantity_nam
 from ...document.repairs import OPERATORS
 from ...drawing.painters.qt import paint, rgba_of
 from ...drawing.shapes import Box, Path, Shape, Text, disc, rounded
+from ..look.form import in_column
 from ..look.icons import pixmap
-from ..look.layouts import in_column
-from ..look.look import LOOK
-from ..look.painting import smooth_painter
+from ..look.look import LOOK, smooth_painter
 from .flat_button import ICON_SIDE, FlatButton
 from .number_box import ReadPopUp
 from .parameters import ChoiceControl, Control, FixedWord, NumberControl, parameter_control, signs
@@ -32,13 +31,13 @@ SLIDERS_FROM, ALL_FROM, FIRST_FROM = 440, 300, 200
 MARGIN, BETWEEN = 8, 4
 WARNING_ROOM = 22
 LETTER_SIDE, LETTER_ROOM = 18, 24
-"""Of the badge with the letter of the surface, and with what is beside it."""
+"""Side of the badge with the letter of the surface, and its room with the space beside it."""
 
 EXACT = "exact"
-"""Of quantities that leave no eigenpair out."""
+"""The method of quantities that leave out no eigenpair."""
 
 DOT_ROOM, DOT = 13, 4.0
-"""For the dot of a curve, and its radius."""
+"""Room for the dot of a curve, and its radius."""
 
 
 class PanelHead(QtWidgets.QWidget):

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from qtpy import QtCore, QtGui
 
-from ...drawing.line_looks import LineLook, Stroke
+from ...drawing.glyphs import LineLook, Stroke
 from ...drawing.painters import qt
 from ...drawing.shapes import Box, Pen, opaque
 from ...scene.clipping import is_kept, lines_cut_away

@@ -11,9 +11,8 @@ from bihdist_core.scalars import with_decimal_point
 
 from ...document.looks import LARGEST
 from ...drawing.numbers import MINUS, number
-from ..look.look import LOOK
-from ..look.painting import smooth_painter
-from ..look.text_box import TextBox, mark_wrong
+from ..look.controls import TextBox, mark_wrong
+from ..look.look import LOOK, smooth_painter
 from .flat_button import paint_ring
 
 STEPS = 240

@@ -14,7 +14,7 @@ from bihdist_core.distances.answers import Answer
 from ...document.document import COMPARISON, Inset
 from ...document.looks import AS_IT_IS, TWENTY_STEPS, Clip, Isolines, Shading
 from ...document.quantities import DistanceFrom
-from ...marks.field_marks import label_rows
+from ...marks.marked_panel import label_rows
 from ...marks.primitives import Caption
 from ...scene.bands import band_edges, beyond
 from ...scene.clipping import clip_plane, cut_through
@@ -29,7 +29,7 @@ from ...session.base import Greys
 from ...session.isoline_points import IsolinePoint
 from ...session.loaded_mesh import LoadedMesh
 from ...session.questions import Question
-from ..look.layouts import in_column
+from ..look.form import in_column
 from ..look.look import LOOK
 from .answer_words import copied_words, reading_of, value_words
 from .colour_bar import MOST_LABELS, ColourBar

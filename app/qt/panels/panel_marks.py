@@ -11,7 +11,7 @@ from bihdist_core import Surface
 from bihdist_core.arrays import FloatArray, IntArray
 from bihdist_core.distances.answers import Answer
 
-from ...marks.field_marks import isoline_points, largest
+from ...marks.marked_panel import isoline_points, largest
 from ...marks.primitives import AreaMark, LegendRow, LineMark, PointMark, SurfaceMark
 from ...scene.selected import selected_colours
 from ...session.isoline_points import IsolinePoint

@@ -8,8 +8,7 @@ from qtpy import QtCore, QtGui, QtWidgets
 from bihdist_core.distances.distance_types import Parameter, Value
 
 from ...drawing.painters.qt import number_width
-from ..look.look import LOOK
-from ..look.painting import baseline
+from ..look.look import LOOK, baseline
 from .flat_button import GAP, HEIGHT, PAD, FlatButton
 from .number_box import STEPS, NumberPopUp, ValueSlider, meaning, shown_value, symbol, value_of_step
 
@@ -223,7 +222,7 @@ class FixedWord(QtWidgets.QLabel):
 
 
 Control = ChoiceControl | NumberControl | FixedWord
-"""What stands after the name; its height is that of a flat button."""
+"""A control after the name in a panel's head, as high as a flat button."""
 
 
 def parameter_control(parent: QtWidgets.QWidget, parameter: Parameter, sign: str, of_what: str) -> Control:

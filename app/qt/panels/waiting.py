@@ -7,9 +7,8 @@ from bihdist_core.sources.words import short_words_of
 from ...drawing.numbers import progress_share
 from ...drawing.painters.qt import number_width, paint_number
 from ...session.answering import Shown
-from ..look.layouts import in_column
-from ..look.look import LOOK
-from ..look.painting import paint_rounded, smooth_painter, translucent
+from ..look.form import in_column
+from ..look.look import LOOK, paint_rounded, smooth_painter, translucent
 from .flat_button import ICON_SIDE, FlatButton
 
 HEIGHT, COMPACT_HEIGHT = 28, 18

@@ -6,8 +6,7 @@ from bihdist_core.counts import counted
 
 from ...commands.mesh import ids_beside, laplacian_of, name_output
 from ...commands.options import add_areas, add_distance, add_output, add_pairs, add_two_meshes, repairs_of, specs
-from ...commands.result import Facts, Result, distance_facts
-from ...commands.terminal import accuracy, progress_line, tell
+from ...commands.terminal import Facts, Result, accuracy, distance_facts, progress_line, tell
 from .options import PAIRS_MEANING
 
 WORDS = "map one mesh to another, from a few pairs of corresponding vertices"

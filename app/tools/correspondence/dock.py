@@ -13,21 +13,18 @@ from ...document.file_names import file_name
 from ...document.quantities import kind_name
 from ...drawing.painters.qt import number_width
 from ...qt.context import Context
-from ...qt.docks.dock import PAD
-from ...qt.docks.instrument import Instrument
-from ...qt.docks.plain import fill
-from ...qt.docks.row_list import RowList
+from ...qt.docks.instrument import PAD, Instrument
+from ...qt.docks.plain import RowList, fill
 from ...qt.files.files import Files
 from ...qt.files.saving import ask_file, file_filter, save
-from ...qt.look.layouts import in_column, in_row, push_button, quiet_label
-from ...qt.look.look import LOOK
-from ...qt.look.painting import baseline
+from ...qt.look.form import in_column, in_row, push_button, quiet_label
+from ...qt.look.look import LOOK, baseline
 from ...scene.style import PINS, WAITING
 from ...session.questions import vertex_at
+from .answers import vertex_pairs
 from .error_section import ErrorSection
 from .gestures import PairGestures
 from .maps import shows_maps
-from .pair_locations import vertex_pairs
 from .pairs import Pair, Pairs, add_pairs, half_pair, number_of, remove_pairs
 from .quantity import predict, predicts, show_distances
 from .row import PairRow, column_ends

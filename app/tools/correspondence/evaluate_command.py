@@ -9,8 +9,7 @@ from bihdist_core.distances.distance_types import distance_type
 
 from ...commands.mesh import laplacian_of
 from ...commands.options import add_cut, add_output, add_two_meshes, count, repairs_of
-from ...commands.result import Facts, Result
-from ...commands.terminal import progress_line
+from ...commands.terminal import Facts, Result, progress_line
 
 if TYPE_CHECKING:
     import numpy as np

@@ -1,7 +1,6 @@
 """Clicks, drags and keys on panels that predict: they place, accept, choose, move and remove the points of pairs."""
 
 from contextlib import suppress
-from typing import TYPE_CHECKING
 
 from qtpy import QtCore, QtWidgets
 
@@ -11,8 +10,9 @@ from ...qt.context import Context
 from ...qt.dragging import Dragging
 from ...qt.gesture import Gesture
 from ...qt.panels.events import Click
-from .candidate_findings import CandidateFindings
-from .pair_locations import Candidate, candidate_in
+from ...scene.picking import Hit
+from .answers import Candidate, candidate_in
+from .candidate_errors import CandidateErrorRequest, CandidateErrors, CandidateErrorWorker, candidate_request
 from .pairs import (
     Pair,
     Pairs,
@@ -26,8 +26,74 @@ from .pairs import (
 )
 from .quantity import predicts_in
 
-if TYPE_CHECKING:
-    from ...scene.picking import Hit
+
+class CandidateFindings(QtCore.QObject):
+    """The errors that are shown at the candidates; `found` is None where there are none."""
+
+    def __init__(self, context: Context) -> None:
+        super().__init__(context)
+        self._context = context
+        self.found: CandidateErrors | None = None
+        self._asked: CandidateErrorRequest | None = None
+        self._background = context.background("candidate errors", CandidateErrorWorker().errors, self._take)
+        context.document_changed.connect(self.document_changed)
+        context.answer_changed.connect(self.document_changed)
+        context.panels_cleared.connect(self._show)
+
+    # ------------------------------------------------------------------ what is told
+    def document_changed(self, _: object = None) -> None:
+        """Ask for the errors of the candidates that are shown now."""
+        asked, before = self._wanted(), self._asked
+        if asked is None and before is None:
+            return
+        if asked is not None and before is not None and asked.about == before.about:
+            if asked.candidates == before.candidates:
+                return
+            # The place stays; how far others are from there has still to be found.
+            self.found = None if self.found is None else CandidateErrors(self.found.places, {})
+        else:
+            self.found = None
+        self._asked = asked
+        self._background.ask(asked)
+        self._show()
+
+    # ------------------------------------------------------------------ asking
+    def _wanted(self) -> CandidateErrorRequest | None:
+        session = self._context.session
+        document = session.document
+        if not any(map(predicts_in, document.panels)):
+            return None
+        loaded = [session.loaded(mesh.name) for mesh in document.surfaces[:2]]
+        first, second = [*loaded, None, None][:2]
+        if first is None or second is None:
+            return None
+        candidates = {}
+        for panel in document.panels:
+            found = candidate_in(document, panel, session.answer(panel.id))
+            if found is not None and session.is_answered(panel.id):
+                candidates[panel.id] = found.vertex
+        return candidate_request(document, first, second, candidates)
+
+    def _take(self, asked: CandidateErrorRequest, found: CandidateErrors) -> None:
+        before = self.found
+        if found.errors or before is None or before.places != found.places:
+            self.found = found
+            self._show()
+
+    def _show(self) -> None:
+        document, found = self._context.document, self.found
+        there = {panel.id: panel for panel in document.panels}
+        for panel in self._context.grid.panels:
+            shown = there.get(panel.id)
+            is_here = shown is not None and shown.surface == self._surface_name() and predicts_in(shown)
+            self._context.grid.marks.show_found(panel.id, CandidateErrors, found if is_here else None)
+
+    def _surface_name(self) -> str:
+        """Return the name of the surface of the candidates."""
+        document, asked = self._context.document, self._asked
+        if asked is None or len(document.surfaces) < 2:
+            return ""
+        return document.surfaces[1 if asked.is_on_first else 0].name
 
 
 class PairGestures(Gesture):
@@ -67,7 +133,7 @@ class PairGestures(Gesture):
             self.context.session.show(place_point(document, surface, vertex))
             self.choose("")
 
-    def follow(self, panel: int, hit: "Hit") -> None:
+    def follow(self, panel: int, hit: Hit) -> None:
         """Move the point without a partner to the pointer, unless its partner is placed on this surface."""
         document, surface = self.document, self.document.panel(panel).surface
         waiting = waiting_point(document)
@@ -134,7 +200,7 @@ class PairGestures(Gesture):
         self._grid.marks.highlight(self.tool, points)
         self.chosen.emit(point)
 
-    def offer(self, menu: QtWidgets.QMenu, panel: int, hit: "Hit") -> None:
+    def offer(self, menu: QtWidgets.QMenu, panel: int, hit: Hit) -> None:
         """Add what can be done at a place to a menu."""
         document = self.document
         pair, half = self._pair_at(document.panel(panel).surface, hit.vertex), half_pair(document)
@@ -160,7 +226,7 @@ class PairGestures(Gesture):
         """Accept a candidate; let another pin marker stand out, or no longer."""
         document = self.document
         pair, surface = document[Pairs].pairs[number - 1], document.panel(panel).surface
-        if not self._has_point(pair, surface):
+        if all(document.point(name).surface != surface for name in pair.points):
             found = candidate_in(document, document.panel(panel), self.context.session.answer(panel))
             if found is not None:
                 self.put(panel, found.vertex)
@@ -168,10 +234,7 @@ class PairGestures(Gesture):
         name = pair.points[0]
         self.choose("" if name in self._grid.marks.highlighted(self.tool) else name)
 
-    def _has_point(self, pair: Pair, surface: str) -> bool:
-        return any(self.document.point(name).surface == surface for name in pair.points)
-
-    def drag(self, panel: int, number: int, hit: "Hit") -> None:
+    def drag(self, panel: int, number: int, hit: Hit) -> None:
         """Move a point as one step of the history, past places that another pair has."""
         session, document = self.context.session, self.document
         surface, pair = document.panel(panel).surface, document[Pairs].pairs[number - 1]

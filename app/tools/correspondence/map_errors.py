@@ -35,9 +35,9 @@ from ...figures.chart_look import ChartLook
 from ...figures.error_figure import ErrorFigure
 from ...scene.style import curve_colours, style_of
 from ...session.loaded_mesh import LoadedMesh
+from .answers import correspondence
 from .maps import SAME_IDS, MapFile, Maps, Truth, map_in
 from .pairs import whole_pairs
-from .prediction_answers import correspondence
 
 MAX_KEPT_VALUES = 40_000_000
 """Numbers of four bytes that are kept of geodesic distances: from 400 vertices of a surface of 100,000."""
@@ -294,7 +294,7 @@ def charts(row: ChartRow) -> list[ErrorFigure]:
     """Return the error curves of the maps that the panels of a row show or predict by."""
     document, surfaces = row.document, row.surfaces
     if len(document.surfaces) != 2:
-        raise ParameterError("A chart of errors is of maps between two meshes; name a second mesh, and its --map.")
+        raise ParameterError("A chart of errors is of maps between two meshes; add a second mesh, and maps to it.")
     if not row.answers:
         return []
     one, two = (surfaces[mesh.name] for mesh in document.surfaces)

@@ -8,10 +8,9 @@ from ...drawing.glyphs import CANDIDATE, CROSS, PIN
 from ...marks.marked_panel import MarkedPanel
 from ...marks.primitives import Caption, LegendRow, PointMark
 from ...scene.style import PINS, WAITING
+from .answers import Candidate, LocatedPairPoint, candidate_in, colours_words, located_pair_points
 from .candidate_errors import CandidateErrors, CandidateErrorWorker, candidate_request
-from .map_answers import colours_words
 from .maps import Maps, Truth
-from .pair_locations import Candidate, LocatedPairPoint, candidate_in, located_pair_points
 from .pairs import pair_words, waiting_point
 from .quantity import predicts_in
 

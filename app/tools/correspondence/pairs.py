@@ -8,9 +8,8 @@ from bihdist_core.errors import ParameterError
 from bihdist_core.sources.source import Source
 
 from ...document.document import Document, Panel, Point, with_new_point
-from ...document.labels import check_colour, next_colour
 from ...document.on_surface import SurfaceItem
-from ...document.part import Part
+from ...document.part import Part, check_colour, next_colour
 from ...document.quantities import Quantity
 from ...document.removal import without_orphans
 

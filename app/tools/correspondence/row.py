@@ -3,9 +3,8 @@
 from qtpy import QtCore, QtGui, QtWidgets
 
 from ...drawing.painters.qt import number_width, paint_number
-from ...qt.docks.dock import PAD
-from ...qt.look.look import LOOK
-from ...qt.look.painting import baseline, smooth_painter
+from ...qt.docks.instrument import PAD
+from ...qt.look.look import LOOK, baseline, smooth_painter
 from ...qt.panels.badges import RADIUS, Badge, paint_badge
 from ...qt.panels.flat_button import FlatButton
 

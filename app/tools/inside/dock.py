@@ -8,13 +8,11 @@ from qtpy import QtWidgets
 from ...document.document import Document
 from ...document.looks import AXES, Clip
 from ...qt.context import Context
-from ...qt.docks.dock import PAD
-from ...qt.docks.instrument import Instrument
+from ...qt.docks.instrument import PAD, Instrument
 from ...qt.docks.plain import fill
 from ...qt.docks.slider_box import Scale, SliderBox
-from ...qt.look.form import Form
-from ...qt.look.layouts import in_column, in_row, push_button, quiet_label
-from ...qt.look.segments import Segments
+from ...qt.look.controls import Segments
+from ...qt.look.form import Form, in_column, in_row, push_button, quiet_label
 
 LABEL_WIDTH_PX, BOX_WIDTH_PX = 56, 54
 

@@ -6,9 +6,8 @@ from bihdist_core.counts import counted
 
 from ...commands.mesh import name_output, outputs_of, read_laplacian
 from ...commands.options import add_areas, add_distance, add_mesh, add_output, as_argument, positive, share, specs
-from ...commands.result import Result, distance_facts
-from ...commands.terminal import accuracy, progress_line, tell_moved
-from .anchor_words import AnchorFile, anchors_from_words, anchors_on
+from ...commands.terminal import Result, accuracy, distance_facts, progress_line, tell_moved
+from .options import AnchorFile, anchors_from_words, anchors_on
 
 WORDS = "interpolate values at a few vertices over the whole mesh"
 EXAMPLES = (

@@ -1,40 +1,155 @@
 """The dock of interpolation: anchors with their values, how they are weighed, and the extrema that are at no anchor."""
 
+import time
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 from qtpy import QtCore, QtWidgets
 
 from bihdist_core import ParameterError
+from bihdist_core.arrays import AnyArray, IntArray
+from bihdist_core.counts import counted
 from bihdist_core.formats.anchors import ANCHOR_FORMATS, read_anchors, write_anchors
 from bihdist_core.formats.field_output import FIELD_FORMATS, write_fields
 from bihdist_core.scalars import with_decimal_point
+from bihdist_core.sources.source import SourceSet
 
-from ...document.document import Document
+from ...document.document import Document, Panel
 from ...document.file_names import file_name
 from ...document.quantities import Quantity
 from ...document.shared_parts.pins import Pins
+from ...drawing.numbers import progress_words
 from ...qt.context import Context
-from ...qt.docks.dock import PAD
-from ...qt.docks.instrument import Instrument
-from ...qt.docks.plain import fill
-from ...qt.docks.row_list import RowList
+from ...qt.docks.instrument import PAD, Instrument
+from ...qt.docks.plain import RowList, fill
 from ...qt.files.saving import ask_file, file_filter, save
-from ...qt.look.form import Form, describe
-from ...qt.look.layouts import in_column, push_button, quiet_label
+from ...qt.look.controls import Segments, TextBox, mark_wrong
+from ...qt.look.form import Form, describe, in_column, in_row, push_button, quiet_label
 from ...qt.look.look import LOOK
-from ...qt.look.segments import Segments
-from ...qt.look.text_box import TextBox, mark_wrong
-from ...session.questions import vertex_at
-from .clock import AnchorClock
+from ...session.chosen_sources import SamplesRequest, find_samples
+from ...session.loaded_mesh import LoadedMesh
+from ...session.questions import first_source, vertex_at
+from .answers import InterpolantMemory
 from .extrema import AnchorExtrema
 from .gestures import AnchorGestures
 from .part import Anchor, Anchors, add_anchor, change_anchor, remove_anchors
 from .quantity import Interpolant, interpolants, interpolate, interpolated, show_distances
 from .row import BOX_WIDTH_PX, AnchorRow
-from .samples import AnchorSamples
+
+USUAL_SAMPLES, MAX_SAMPLES = 5, 100
+"""More anchors at first, and at most at once."""
+
+
+class AnchorSamples(QtWidgets.QWidget):
+    """A number, and a button: so many points more, each the farthest from all anchors by the active panel's distance.
+
+    What is there keeps its value: where a field is known, each gets what the field has there.
+    """
+
+    def __init__(self, context: Context) -> None:
+        super().__init__()
+        self._context = context
+        self._background = context.background("samples", find_samples, self._take, self._refuse, self._show_progress)
+        self._asked: tuple[Document, AnyArray, int] | None = None  # of whose anchors, by which panel
+        tip = "Anchors at points that are farthest from each other, by the active panel's distance"
+        self.add = push_button("Add samples", self.add_them, tip)
+        self.count = QtWidgets.QSpinBox(minimum=1, maximum=MAX_SAMPLES, value=USUAL_SAMPLES)
+        self.count.setAccessibleName("How many samples become anchors")
+        in_row(self.add, self.count, None, of=self, spacing=8)
+
+    def add_them(self) -> None:
+        """Look for farthest points, and make anchors of them."""
+        session, panel = self._context.session, self._panel
+        loaded = None if panel is None else session.loaded(panel.surface)
+        if panel is None or loaded is None:
+            return
+        (part,) = panel.shows.parts
+        document = session.document
+        points = [document.point(anchor.point) for anchor in document[Anchors].anchors]
+        there = [vertex_at(point.at, loaded.surface) for point in points if point.surface == panel.surface]
+        start = there or [first_source(loaded.surface, loaded.up)]
+        self._asked = (document, np.array(there, int), panel.id)
+        at = start[0] if len(start) == 1 else SourceSet(tuple(start))
+        more = self.count.value() + len(there)
+        self._background.ask(SamplesRequest(loaded, document.areas, part.specs[0], at, more))
+
+    def _take(self, request: SamplesRequest, vertices: IntArray) -> None:
+        self._context.status.show_progress("")
+        asked, self._asked = self._asked, None
+        if asked is None:
+            return
+        session = self._context.session
+        document, there, panel = asked
+        if (document[Anchors].anchors, document.points) != (session.document[Anchors].anchors, session.document.points):
+            return  # they are farthest from others
+        answer = session.answer(panel) if len(there) > 1 and session.is_answered(panel) else None
+        field = None if answer is None else answer.field
+        new = [vertex for vertex in vertices.tolist() if vertex not in there]
+        document, surface = session.document, session.document.panel(panel).surface
+        with self._context.errors_shown():  # there may be too many
+            for rank, vertex in enumerate(new):
+                share = rank / max(1, len(new) - 1)
+                value = share if field is None else float(field[vertex])
+                document, _ = add_anchor(document, vertex, float(f"{value:.3g}"), surface)
+            session.show(document)
+
+    def _refuse(self, request: SamplesRequest, sentence: str) -> None:
+        self._asked = None
+        self._context.status.show_progress("")
+        self._context.fail(sentence)
+
+    def _show_progress(self, going: tuple[float, str] | None) -> None:
+        self._context.status.show_progress("" if going is None or self._asked is None else progress_words(*going))
+
+    @property
+    def _panel(self) -> Panel | None:
+        """Return the active panel, or the first that shows an interpolant."""
+        document, active = self._context.document, self._context.grid.active
+        panels = sorted(document.panels, key=lambda panel: panel.id != active)
+        return next((p for p in panels if isinstance(p.shows, Interpolant)), None)
+
+
+class AnchorClock:
+    """Measures how long all panels take to follow the values of anchors."""
+
+    def __init__(self, context: Context) -> None:
+        self._context = context
+        self._begun: float | None = None
+        self._columns = 0
+        self._anchors: tuple[Anchor, ...] = ()
+
+    def begin(self, anchors: tuple[Anchor, ...]) -> None:
+        """Start the clock: the values become these."""
+        session = self._context.session
+        loaded = session.loaded()
+        if loaded is not None and anchors != session.document[Anchors].anchors:
+            self._begun, self._columns, self._anchors = time.perf_counter(), _columns(loaded), anchors
+
+    def note(self) -> None:
+        """Note that a panel shows another field; the time is told when all do, after they were painted."""
+        session = self._context.session
+        if session.document[Anchors].anchors != self._anchors:
+            self._begun = None  # something else has been done meanwhile
+        if self._begun is not None and all(session.is_answered(panel.id) for panel in session.document.panels):
+            QtCore.QTimer.singleShot(0, self._say)
+
+    def _say(self) -> None:
+        begun, self._begun = self._begun, None
+        loaded = self._context.session.loaded()
+        if begun is None or loaded is None:
+            return
+        count = _columns(loaded) - self._columns
+        solved = f", with {counted(count, 'new solve')}" if count else ", without solving again"
+        self._context.status.show_time(f"Updated in {1000 * (time.perf_counter() - begun):.0f} ms{solved}")
+
+
+def _columns(loaded: LoadedMesh) -> int:
+    """Return the number of columns of distances solved for so far."""
+    return loaded.memory(InterpolantMemory).columns
+
 
 LABEL_WIDTH_PX = 88
 

@@ -1,7 +1,5 @@
 """Clicks and drags on panels that show an interpolant: they place, move and remove anchors."""
 
-from typing import TYPE_CHECKING
-
 from qtpy import QtCore, QtWidgets
 
 from ...document.document import Document
@@ -10,11 +8,9 @@ from ...qt.context import Context
 from ...qt.dragging import Dragging
 from ...qt.gesture import Gesture
 from ...qt.panels.events import Click
+from ...scene.picking import Hit
 from .part import Anchors, add_anchor, remove_anchors
 from .quantity import interpolants
-
-if TYPE_CHECKING:
-    from ...scene.picking import Hit
 
 
 class AnchorGestures(Gesture):
@@ -31,7 +27,7 @@ class AnchorGestures(Gesture):
     def click(self, panel: int, click: Click) -> None:
         self.put(panel, click.hit)
 
-    def put(self, panel: int, hit: "Hit") -> None:
+    def put(self, panel: int, hit: Hit) -> None:
         """Add an anchor at a vertex, with the value that the panel has there."""
         session = self.context.session
         document, surface = session.document, session.document.panel(panel).surface
@@ -49,7 +45,7 @@ class AnchorGestures(Gesture):
             return float(min(len(known), 1))
         return float(f"{answer.field[vertex]:.3g}")
 
-    def offer(self, menu: QtWidgets.QMenu, panel: int, hit: "Hit") -> None:
+    def offer(self, menu: QtWidgets.QMenu, panel: int, hit: Hit) -> None:
         """Add what can be done at a place to a menu."""
         name = self._name_at(panel, hit.vertex)
         if name:
@@ -73,7 +69,7 @@ class AnchorGestures(Gesture):
             self.remove(found)
         return bool(found)
 
-    def drag(self, panel: int, number: int, hit: "Hit") -> None:
+    def drag(self, panel: int, number: int, hit: Hit) -> None:
         """Move an anchor, past vertices that another has."""
         session = self.context.session
         document, surface = session.document, session.document.panel(panel).surface

@@ -9,10 +9,9 @@ from bihdist_core.errors import ParameterError
 from bihdist_core.sources.source import Source
 
 from ...document.document import Document, with_new_point
-from ...document.labels import check_name
 from ...document.looks import LARGEST
 from ...document.on_surface import SurfaceItem
-from ...document.part import Part
+from ...document.part import Part, check_name
 from ...document.removal import without_orphans
 
 MOST_ANCHORS = 500

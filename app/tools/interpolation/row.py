@@ -4,11 +4,11 @@ import math
 
 from qtpy import QtCore, QtGui
 
-from ...qt.docks.dock import PAD
+from ...qt.docks.instrument import PAD
 from ...qt.docks.slider_box import Scale, SliderBox
-from ...qt.look.layouts import in_row, keep_room
+from ...qt.look.controls import TextBox
+from ...qt.look.form import in_row, keep_room
 from ...qt.look.look import LOOK
-from ...qt.look.text_box import TextBox
 from ...qt.panels.flat_button import FlatButton
 
 SLIDER_STEPS = 1000

@@ -1,7 +1,6 @@
 """Clicks, drags and menus that add, choose, move and remove pins."""
 
 from functools import partial
-from typing import TYPE_CHECKING
 
 from qtpy import QtCore, QtWidgets
 
@@ -13,9 +12,7 @@ from ...qt.context import Context
 from ...qt.gesture import Gesture
 from ...qt.panels.events import Click
 from ...qt.snapping import Snapping
-
-if TYPE_CHECKING:
-    from ...scene.picking import Hit
+from ...scene.picking import Hit
 
 
 class PinGestures(Gesture):
@@ -31,12 +28,12 @@ class PinGestures(Gesture):
     def click(self, panel: int, click: Click) -> None:
         self.put(panel, click.hit)
 
-    def put(self, panel: int, hit: "Hit") -> None:
+    def put(self, panel: int, hit: Hit) -> None:
         """Add a pin, unless there is one."""
         at, surface = self._at(panel, hit), self.document.panel(panel).surface
         self.context.session.apply(lambda document: add_pins(document, [at], surface))
 
-    def offer_always(self, menu: QtWidgets.QMenu, panel: int, hit: "Hit | None", where: QtCore.QPoint) -> None:
+    def offer_always(self, menu: QtWidgets.QMenu, panel: int, hit: Hit | None, where: QtCore.QPoint) -> None:
         """Add what can be done with a pin or a place to a menu."""
         view = self._grid.panel(panel).view
         found = view.over.points.standing_at(view.mapFromGlobal(where))
@@ -74,7 +71,7 @@ class PinGestures(Gesture):
             place = f"vertex {where}" if isinstance(where, int) else "in a face"
             self.context.tell(f"{_name(pin, number).capitalize()}: {place}")
 
-    def drag(self, panel: int, number: int, hit: "Hit") -> None:
+    def drag(self, panel: int, number: int, hit: Hit) -> None:
         """Move a pin as one step of the history, past places that another has."""
         session = self.context.session
         document, at = session.document, self._at(panel, hit)

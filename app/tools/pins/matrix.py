@@ -9,8 +9,7 @@ from bihdist_core.arrays import FloatArray
 
 from ...drawing.numbers import number
 from ...drawing.painters.qt import number_width, paint_number
-from ...qt.look.look import LOOK
-from ...qt.look.painting import baseline, smooth_painter
+from ...qt.look.look import LOOK, baseline, smooth_painter
 from ...qt.look.theme import between
 from ...qt.panels.badges import Badge, paint_badge
 

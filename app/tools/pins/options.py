@@ -9,10 +9,10 @@ from bihdist_core.errors import ParameterError
 from bihdist_core.sources.source import Source, SurfacePoint, checked_source
 from bihdist_core.sources.words import short_words_of, words_of
 
-from ...document.labels import MARK_COLOURS
 from ...document.lists import file_in, split_list
 from ...document.option import NotExpressible, Option, Row, unsaid
 from ...document.page import Recipe
+from ...document.part import MARK_COLOURS
 from ...document.shared_parts.pins import Pins, pin_instead, with_pins
 from ...document.sources import Sources, sources_from_words
 

@@ -7,9 +7,8 @@ from dataclasses import dataclass
 from qtpy import QtCore, QtGui, QtWidgets
 
 from ...drawing.painters.qt import number_width, paint_number
-from ...qt.look.look import LOOK
-from ...qt.look.painting import baseline, paint_elided
-from ...qt.look.text_box import TextBox
+from ...qt.look.controls import TextBox
+from ...qt.look.look import LOOK, baseline, paint_elided
 from ...qt.panels.badges import Badge, paint_badge
 
 ROW_HEIGHT_PX = 30

@@ -4,8 +4,7 @@ from qtpy import QtCore, QtGui, QtWidgets
 
 from ...document.document import Document
 from ...document.shared_parts.pins import Pins
-from ...qt.look.look import LOOK
-from ...qt.look.painting import smooth_painter
+from ...qt.look.look import LOOK, smooth_painter
 from ...qt.panels.badges import SOURCE, Badge, paint_badge
 from ...qt.panels.flat_button import FlatButton
 from ...scene.style import PINS

@@ -12,9 +12,8 @@ from ...drawing.numbers import number, percent, share
 from ...drawing.painters.qt import number_width, paint, paint_number, rgba_of, text_width
 from ...drawing.shapes import Pen
 from ...qt.docks.chart import FONT, CardLine, CurveChart
-from ...qt.look.layouts import in_row
-from ...qt.look.look import LOOK
-from ...qt.look.painting import baseline
+from ...qt.look.form import in_row
+from ...qt.look.look import LOOK, baseline
 from ...qt.panels.badges import RADIUS, Badge, paint_badge
 from .curves import ProfileCurve, parted
 

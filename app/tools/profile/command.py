@@ -3,9 +3,8 @@
 import argparse
 from dataclasses import asdict
 
-from ...commands.field_of import check_values
-from ...commands.mesh import check_mesh, write_ids_of
-from ...commands.mesh_sources import first_spec, one_source, sources_of_document, sources_of_mesh
+from ...commands.field import check_values
+from ...commands.mesh import check_mesh, first_spec, one_source, sources_of_document, sources_of_mesh, write_ids_of
 from ...commands.options import (
     add_areas,
     add_chart,
@@ -20,8 +19,7 @@ from ...commands.options import (
     quantities,
     repairs_of,
 )
-from ...commands.result import Result, panel_facts
-from ...commands.terminal import progress_line, report_answers, tell_repairs
+from ...commands.terminal import Result, panel_facts, progress_line, report_answers, tell_repairs
 from ...document.document import COMPARISON
 from .options import ACROSS, WAY
 from .part import Profile

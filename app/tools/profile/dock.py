@@ -1,5 +1,6 @@
-"""The dock of the profile: the fields of all panels along a path, live, and where the path leads."""
+"""The dock of the profile: the fields of all panels along a path, live, where the path leads, and files of both."""
 
+from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -7,26 +8,90 @@ from qtpy import QtCore
 
 from bihdist_core import ParameterError, Surface
 from bihdist_core.analysis.places import Places
-from bihdist_core.analysis.surface_paths import SurfacePath
+from bihdist_core.analysis.surface_paths import PROFILE_FORMATS, SurfacePath, write_profile
 from bihdist_core.arrays import FloatArray
+from bihdist_core.distances.answers import Answer
 
 from ...document.document import Document
+from ...document.file_names import file_name
 from ...qt.context import Context
 from ...qt.docks.instrument import Instrument
-from ...qt.look.layouts import in_column
+from ...qt.files.exports import save_figure
+from ...qt.files.saving import save
+from ...qt.look.controls import Segments
+from ...qt.look.form import in_column
 from ...qt.look.look import LOOK
-from ...qt.look.segments import Segments
 from ...qt.panels.badges import curve_colour
 from .badges import badge_of
 from .chart import ProfileCharts
 from .curves import ProfileCurve, profile_curve
-from .files import ProfileFiles
 from .part import Profile, points_along
 from .path_controls import PathControls
 from .paths import PathWanted, PathWorker, wanted_path
 
 if TYPE_CHECKING:
     from ...qt.panels.panel import DistancePanel
+    from .figure import ProfileFigure
+
+
+class ProfileFiles:
+    """Saves and copies a profile; `profile()` returns its path and the ids of the panels with a curve."""
+
+    def __init__(self, context: Context, profile: Callable[[], tuple[SurfacePath | None, list[int]]]) -> None:
+        self._context, self._profile = context, profile
+
+    def save_numbers(self, path: str = "") -> None:
+        """Save the path and the fields along it; ask for a file if none is given."""
+
+        def write(path: str) -> None:
+            write_profile(path, self._path(), self._fields())
+
+        save(self._context, "Save the profile's numbers", self._name, tuple(PROFILE_FORMATS), write, path)
+
+    def save_figure(self, path: str = "") -> None:
+        """Save the figure in the background; ask for a file if none is given."""
+        from .figure import save_profile_figure
+
+        title = "Save the profile as a figure"
+        save_figure(self._context, title, self._name, save_profile_figure, self.figure, path)
+
+    def figure(self) -> "ProfileFigure":
+        """Return the figure of the chart, in the style of the page and the colours that go with its background."""
+        from .figure import profile_figure
+
+        context = self._context
+        return profile_figure(context.document, context.page, self._path(), self._answers)
+
+    def copy(self) -> None:
+        """Copy a table with tabs, as spreadsheets read it."""
+        path = self._path()
+        fields = {name: path.along(field) for name, field in self._fields().items()}
+        rows = ["\t".join(["arc", *fields])]
+        for k, arc in enumerate(path.arcs):
+            rows.append("\t".join(repr(float(x)) for x in (arc, *(column[k] for column in fields.values()))))
+        self._context.copy("\n".join(rows) + "\n", f"{len(rows) - 1:,} points of the profile are on the clipboard")
+
+    @property
+    def _name(self) -> str:
+        return file_name([self._context.session.mesh().surface.name], "profile")
+
+    def _path(self) -> SurfacePath:
+        path, _ = self._profile()
+        if path is None:
+            raise ParameterError("There is no path yet; wait until it has been found.")
+        return path
+
+    @property
+    def _answers(self) -> dict[int, Answer]:
+        """The answers of the panels that show a curve."""
+        _, panels = self._profile()
+        return {id: self._context.session.shown[id].answer for id in panels}
+
+    def _fields(self) -> dict[str, FloatArray]:
+        from .figure import profile_fields
+
+        return profile_fields(self._context.document, self._answers)
+
 
 FINDING = "Finding the path…"
 

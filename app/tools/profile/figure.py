@@ -270,7 +270,7 @@ def charts(row: ChartRow) -> list[ProfileFigure]:
         raise ParameterError("A profile is of panels of one mesh; --rows mesh gives each mesh a row of its own.")
     names = points_along(document)
     if len(names) < 2:
-        raise ParameterError("A chart of a profile needs its path: --profile with points, or pins.")
+        raise ParameterError("A chart of a profile needs its path: points of the profile, or pins.")
     own, on = row.surfaces[document.point(names[0]).surface], row.surfaces[surface]
     if not np.array_equal(own.surface.faces, on.surface.faces):
         raise ParameterError(

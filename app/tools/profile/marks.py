@@ -3,7 +3,7 @@
 from bihdist_core import BihdistError
 from bihdist_core.analysis.places import Places
 
-from ...drawing.line_looks import PATH
+from ...drawing.glyphs import PATH
 from ...marks.marked_panel import MarkedPanel
 from ...marks.primitives import LineMark, Remark
 from .part import shows_path

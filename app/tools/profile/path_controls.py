@@ -12,8 +12,8 @@ from bihdist_core.analysis.plane_sections import PARTS
 from ...document.document import Document
 from ...document.shared_parts.pins import Pins, pinned_at
 from ...qt.context import Context
-from ...qt.look.layouts import in_row, quiet_label
-from ...qt.look.text_box import TextBox
+from ...qt.look.controls import TextBox
+from ...qt.look.form import in_row, quiet_label
 from ...qt.panels.flat_button import add_entry, menu_button
 from .badges import BadgeButton, BadgeRow, badge_of
 from .part import SECTIONS, Profile, points_along

@@ -8,10 +8,9 @@ from ...document.document import Document
 from ...document.edits import mark_extrema
 from ...document.quantities import quantity_name
 from ...qt.context import Context
-from ...qt.docks.dock import PAD
-from ...qt.docks.instrument import Instrument
+from ...qt.docks.instrument import PAD, Instrument
 from ...qt.docks.plain import PanelTable, fill
-from ...qt.look.layouts import in_column, in_row
+from ...qt.look.form import in_column, in_row
 from ...qt.look.look import LOOK
 from .findings import QualityFindings
 from .measures import MEASURES, NONE, WAITING

@@ -4,11 +4,9 @@ import argparse
 
 from bihdist_core.counts import counted
 
-from ...commands.mesh import ids_beside, read_laplacian
-from ...commands.mesh_sources import sources_on
+from ...commands.mesh import ids_beside, read_laplacian, sources_on
 from ...commands.options import add_areas, add_distance, add_mesh, add_output, add_sources, specs
-from ...commands.result import Result, distance_facts
-from ...commands.terminal import accuracy, progress_line
+from ...commands.terminal import Result, accuracy, distance_facts, progress_line
 
 WORDS = "divide a mesh into the parts nearest to each of some vertices"
 EXAMPLES = (

@@ -2,7 +2,7 @@
 
 from bihdist_core.analysis.region_boundaries import region_boundaries
 
-from ...drawing.line_looks import BOUNDARY
+from ...drawing.glyphs import BOUNDARY
 from ...marks.marked_panel import MarkedPanel
 from ...marks.primitives import LineMark
 from .division import Divided, regions_of, regions_questions

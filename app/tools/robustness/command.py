@@ -6,8 +6,7 @@ from typing import TYPE_CHECKING
 
 from bihdist_core.counts import counted
 
-from ...commands.mesh import ids_beside, laplacian_of, name_output, outputs_of
-from ...commands.mesh_sources import sources_on
+from ...commands.mesh import ids_beside, laplacian_of, name_output, outputs_of, sources_on
 from ...commands.options import (
     add_distance,
     add_mesh,
@@ -20,8 +19,7 @@ from ...commands.options import (
     repairs_of,
     specs,
 )
-from ...commands.result import Facts, Result, facts_of
-from ...commands.terminal import progress_line
+from ...commands.terminal import Facts, Result, facts_of, progress_line
 
 if TYPE_CHECKING:
     import numpy as np

@@ -1,5 +1,7 @@
 """The dock of robustness: changes to the mesh, and how far each distance changes with it."""
 
+import time
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -17,18 +19,132 @@ from ...document.document import Document
 from ...document.file_names import file_name
 from ...qt.context import Context
 from ...qt.docks.brushing import Brushing
-from ...qt.docks.dock import PAD
-from ...qt.docks.instrument import Instrument
+from ...qt.docks.instrument import PAD, Instrument
 from ...qt.docks.plain import fill
-from ...qt.docks.slider_box import Scale
+from ...qt.docks.slider_box import Scale, SliderBox
 from ...qt.files.saving import MESH_FILES, ask_file, save
-from ...qt.look.form import Form, describe
-from ...qt.look.layouts import add_parts, hairline, heading, in_column, in_row, push_button, quiet_label
-from ...qt.look.segments import Segments
-from .perturbation_requests import PerturbationRequests
-from .perturbed_documents import check_can_perturb, cut_by, has_other_mesh
-from .rows import AmountRow, ChosenRow, beside
+from ...qt.look.controls import ElidedLabel, Segments
+from ...qt.look.form import (
+    Form,
+    add_parts,
+    describe,
+    hairline,
+    heading,
+    in_column,
+    in_row,
+    keep_room,
+    push_button,
+    quiet_label,
+)
+from ...qt.look.look import LOOK
+from ...qt.panels.flat_button import icon_button
+from .perturbed_documents import check_can_perturb, cut_by, has_other_mesh, perturb_mesh, perturbation_of
 from .table import ChangeTable
+
+REQUEST_INTERVAL_MS = 60
+"""Milliseconds between two requests while a slider moves."""
+
+PATIENCE_S = 4.0
+"""Seconds for which the last perturbation may go on before the next takes its place, so that some arrive while a
+slider moves."""
+
+
+class PerturbationRequests(QtCore.QObject):
+    """Asks for the perturbation `wanted`, None once that is done; `lost` is emitted if it cannot be made."""
+
+    lost = QtCore.Signal()
+
+    def __init__(self, context: Context) -> None:
+        super().__init__(context)
+        self._context = context
+        self.wanted: Perturbation | None = None
+        self._key = ""
+        self._mesh = ""
+        self._asked, self._asked_at = Perturbation(), 0.0
+        self._soon = QtCore.QTimer(self, singleShot=True, interval=REQUEST_INTERVAL_MS)
+        self._soon.timeout.connect(self._ask)
+        context.refused.connect(self._refused)
+
+    def want(self, change: Perturbation, key: str = "", is_live: bool = False) -> None:
+        """Ask for a perturbation, as a step of the history with the key; with `is_live`, more are to come."""
+        self.wanted, self._key = change, key
+        self._mesh = self._context.document.surfaces[0].sha256
+        if not is_live:
+            self._soon.stop()
+            self._ask(at_once=True)
+        elif not self._soon.isActive():
+            self._soon.start()
+
+    def forget(self) -> None:
+        """Ask for nothing any more."""
+        self.wanted = None
+        self._soon.stop()
+
+    def _ask(self, at_once: bool = False) -> None:
+        session = self._context.session
+        if self.wanted is None or session.document.surfaces[0].sha256 != self._mesh:
+            self.forget()  # another mesh has been opened
+            return
+        if session.is_opening and not at_once and time.monotonic() - self._asked_at < PATIENCE_S:
+            self._soon.start()
+            return
+        wanted, self.wanted = self.wanted, None
+        if wanted == (self._asked if session.is_opening else perturbation_of(session.document)):
+            return
+        self._asked, self._asked_at = wanted, time.monotonic()
+        session.apply(lambda document: perturb_mesh(document, wanted), self._key)
+
+    def _refused(self, _: str) -> None:
+        if self.wanted is None:
+            self.lost.emit()
+
+
+BOX_WIDTH_PX, UNIT_WIDTH_PX = 60, 40
+"""Logical pixels of boxes, and of what stands behind them."""
+
+
+class AmountRow(SliderBox):
+    """An amount with a slider and a box, its `name` for screen readers and tips, and a `unit` behind the box."""
+
+    def __init__(self, name: str, unit: str, scale: Scale, is_good: Callable[[float], bool], wrong: str) -> None:
+        super().__init__(scale, BOX_WIDTH_PX, is_good, wrong)
+        self.name_value(name, name)
+        behind = quiet_label(unit)
+        behind.setFixedWidth(round(UNIT_WIDTH_PX * LOOK.scale))
+        in_row((self.slider, 1), self.box, behind, of=self, spacing=8)
+
+
+class ChosenRow(QtWidgets.QWidget):
+    """A button, what has been chosen by it, and a cross that takes that away."""
+
+    removed = QtCore.Signal()
+
+    def __init__(self, words: str, button: str, tip: str, is_check: bool = False) -> None:
+        super().__init__()
+        self.button = push_button(button)
+        self.button.setCheckable(is_check)
+        describe(self.button, f"{words}: {button}", tip)
+        self.note = ElidedLabel(QtCore.Qt.TextElideMode.ElideMiddle)
+        self.note.setSizePolicy(QtWidgets.QSizePolicy.Policy.Ignored, QtWidgets.QSizePolicy.Policy.Preferred)
+        self.note.setAlignment(QtCore.Qt.AlignmentFlag.AlignRight | QtCore.Qt.AlignmentFlag.AlignVCenter)
+        self.cross = icon_button(self, "close", f"{words}: remove", self.removed.emit)
+        keep_room(self.cross)
+        in_row(self.button, (self.note, 1), self.cross, of=self, spacing=8)
+        self.show_chosen("")
+
+    def show_chosen(self, words: str) -> None:
+        """Show what is chosen, "" for nothing."""
+        self.note.setText(words)
+        self.note.setToolTip(words)
+        self.cross.setVisible(bool(words))
+
+
+def beside(*widgets: QtWidgets.QWidget) -> QtWidgets.QWidget:
+    """Return widgets side by side, at the left of what room there is."""
+    row = QtWidgets.QWidget()
+    in_row(*widgets, None, of=row, spacing=8)
+    return row
+
 
 LABEL_WIDTH_PX = 72
 

@@ -14,8 +14,7 @@ from ...drawing.numbers import number, share
 from ...drawing.painters.qt import number_width, paint_number
 from ...qt.context import Context
 from ...qt.docks.fact_table import FactTable
-from ...qt.look.look import LOOK
-from ...qt.look.painting import baseline
+from ...qt.look.look import LOOK, baseline
 from ...session.loaded_mesh import LoadedMesh
 from .answers import ChangeNumbers, ChangeQuestion, change_numbers
 

@@ -27,13 +27,12 @@ from ...qt.context import Context
 from ...qt.docks.brushing import Brushing
 from ...qt.docks.fact_table import FactTable
 from ...qt.docks.instrument import NO_FIELD, Instrument
-from ...qt.files.chart_files import save_figure
+from ...qt.files.exports import save_figure
 from ...qt.files.saving import save
-from ...qt.look.form import describe
+from ...qt.look.controls import Segments
+from ...qt.look.form import describe, heading, in_column, in_row, quiet_label
 from ...qt.look.icons import put_icon
-from ...qt.look.layouts import heading, in_column, in_row, quiet_label
 from ...qt.look.look import LOOK
-from ...qt.look.segments import Segments
 from ...qt.panels.badges import curve_colour
 from ...qt.panels.flat_button import FlatButton, add_entry, icon_button, menu_button
 from ...scene.density import axis_ends

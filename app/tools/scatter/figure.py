@@ -45,9 +45,7 @@ def charts(row: ChartRow) -> Sequence[ScatterFigure]:
     """Return the scatter of the first two panels of a row."""
     pair = row.document.panels[:2]
     if len(pair) < 2 or pair[0].surface != pair[1].surface:
-        raise ParameterError(
-            "A scatter needs two panels of one mesh in each row, such as --distance biharmonic,geodesic."
-        )
+        raise ParameterError("A scatter needs two panels of one mesh in each row, such as biharmonic and geodesic.")
     if not all(panel.id in row.answers for panel in pair):
         return ()
     one, other = (row.answers[panel.id] for panel in pair)

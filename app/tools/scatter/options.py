@@ -6,10 +6,10 @@ from typing import Any
 
 from bihdist_core.applications.changes import Runs
 
-from ...document.labels import MARK_COLOURS
 from ...document.lists import file_in
 from ...document.option import NotExpressible, Option, Row, unsaid
 from ...document.page import Recipe
+from ...document.part import MARK_COLOURS
 
 MAX_NAMED_IDS = 1000
 """Characters of selected vertices in a line that somebody is to read."""

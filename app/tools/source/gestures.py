@@ -1,28 +1,96 @@
-"""Clicks, drags and keys on sources: points, sets of them, boundary loops, and curves that are drawn."""
+"""Clicks, drags and keys on sources: points, sets of them, boundary loops, and curves that strokes draw."""
 
-from typing import TYPE_CHECKING
+from collections.abc import Sequence
+from itertools import pairwise
 
 import numpy as np
 from qtpy import QtCore, QtWidgets
 
+from bihdist_core import Surface
 from bihdist_core.arrays import AnyArray, FloatArray
 from bihdist_core.sources.boundary import boundary_loops
 from bihdist_core.sources.pieces import pieces_of
+from bihdist_core.sources.plane_walk import PlaneWalk
 from bihdist_core.sources.source import BoundaryLoop, Curve, Member, Source, SurfacePoint
 from bihdist_core.sources.words import short_words_of
 
 from ...document.edits import move_source, source_name
-from ...document.source_edits import members_of, place_in, points_of, with_member, with_moved, without_member
+from ...document.source_edits import (
+    members_of,
+    place_at,
+    place_in,
+    points_of,
+    source_from,
+    with_member,
+    with_moved,
+    without_member,
+)
 from ...qt.context import Context
 from ...qt.dragging import Dragging
 from ...qt.files.curve_files import CurveFiles
 from ...qt.gesture import LAST, Gesture
 from ...qt.panels.events import Click, Stroke, StrokeEnd
 from ...qt.snapping import Snapping
-from .strokes import source_from_strokes
+from ...scene.picking import Hit
 
-if TYPE_CHECKING:
-    from ...scene.picking import Hit
+MAX_DETOUR = 3.0
+"""A way on the surface between two places drawn one after another is at most so many times as long as the straight
+line; otherwise the pointer has come from one part of the surface to another behind it."""
+MAX_LEAP, MAX_LEAP_DETOUR = 6.0, 1.2
+"""Steps so many times as long as most are cut as well: the surface is seen from the side there, or another part of
+it behind."""
+
+
+def source_from_strokes(strokes: Sequence[Sequence[SurfacePoint]], surface: Surface, is_closed: bool = False) -> Source:
+    """Return the source of strokes on a surface: curves, and points for strokes of one place, or on points.
+
+    Places that no path on the surface joins are cut apart. With `is_closed` the only stroke returns to where it
+    began.
+    """
+    if not len(surface.faces):
+        places = [place for stroke in strokes for place in stroke]
+        return source_from(list(dict.fromkeys(_member([place], surface.shape, False) for place in places)))
+    joins = _Joins(strokes, surface)
+    runs: list[list[SurfacePoint]] = []
+    for stroke in strokes:
+        runs.append([stroke[0]])
+        for start, stop in pairwise(stroke):
+            if joins.has(start, stop):
+                runs[-1].append(stop)
+            else:
+                runs.append([stop])
+    is_ring = is_closed and len(runs) == 1 and len(runs[0]) > 2 and joins.has(runs[0][-1], runs[0][0])
+    return source_from([_member(run, surface, is_ring) for run in runs])
+
+
+def _member(run: Sequence[SurfacePoint], surface: Surface, is_ring: bool) -> Member:
+    if len(run) == 1:
+        return place_at(surface.faces[run[0].face], run[0].face, run[0].weights)
+    return Curve(tuple(run), is_ring)
+
+
+class _Joins:
+    """Which places of strokes a way on the surface joins."""
+
+    def __init__(self, strokes: Sequence[Sequence[SurfacePoint]], surface: Surface) -> None:
+        self._surface, self._walk = surface, PlaneWalk(surface)
+        steps = [self._straight(*pair) for stroke in strokes for pair in pairwise(stroke)]
+        self._usual = float(np.median(steps)) if steps else 0.0
+
+    def has(self, start: SurfacePoint, stop: SurfacePoint) -> bool:
+        way = self._walk.between(start, stop)
+        if way is None:
+            return False
+        corners = self._surface.vertices[self._surface.faces[[face for face, _, _ in way]]]
+        steps = np.einsum("kc,kcx->kx", np.array([there - here for _, here, there in way]), corners)
+        straight = self._straight(start, stop)
+        most = MAX_LEAP_DETOUR if straight > MAX_LEAP * self._usual else MAX_DETOUR
+        return float(np.linalg.norm(steps, axis=1).sum()) <= most * max(straight, 1e-300)
+
+    def _straight(self, start: SurfacePoint, stop: SurfacePoint) -> float:
+        p, q = (np.array(x.weights) @ self._surface.vertices[self._surface.faces[x.face]] for x in (start, stop))
+        return float(np.linalg.norm(q - p))
+
 
 POINTER_REACH_PX = 24.0
 """Pixels from the pointer to a member of the source, or to a boundary, that a menu means."""
@@ -72,7 +140,7 @@ class SourceGestures(Gesture):
         else:
             self._move(panel, self.at(panel, click.hit))
 
-    def follow(self, panel: int, hit: "Hit") -> None:
+    def follow(self, panel: int, hit: Hit) -> None:
         self._move(panel, self.at(panel, hit), key="live", live=True)
 
     def cancel(self) -> bool:
@@ -85,7 +153,7 @@ class SourceGestures(Gesture):
         self.context.session.show(move_source(self.document, panel, at), key, live=live)
 
     # ------------------------------------------------------------------ points
-    def drag(self, panel: int, number: int, hit: "Hit") -> None:
+    def drag(self, panel: int, number: int, hit: Hit) -> None:
         """Move a member of the source of a panel."""
         session = self.context.session
         if self._moved is None:
@@ -137,7 +205,7 @@ class SourceGestures(Gesture):
         self.context.session.show(self.document, key=f"steps in {self._grid.active}")
 
     # ------------------------------------------------------------------ members
-    def add_or_remove(self, panel: int, hit: "Hit") -> None:
+    def add_or_remove(self, panel: int, hit: Hit) -> None:
         """Add a place to the source by Ctrl and a click, or remove a member that is there."""
         member, at = self._member_at(panel, hit), self.at(panel, hit)
         if member is None and at in self._members(panel):
@@ -184,7 +252,7 @@ class SourceGestures(Gesture):
         name = source_name(document, panel)
         return members_of(document.point(name).at) if name else ()
 
-    def _member_at(self, panel: int, hit: "Hit") -> Member | None:
+    def _member_at(self, panel: int, hit: Hit) -> Member | None:
         """Return the member of the source near a place, None if there is none."""
         members = self._members(panel)
         if not members:
@@ -193,7 +261,7 @@ class SourceGestures(Gesture):
         best = int(np.argmin([np.linalg.norm(x - hit.position) for x in nearest]))
         return members[best] if self._is_near(panel, nearest[best], hit, POINTER_REACH_PX / 2) else None
 
-    def _nearest_of(self, panel: int, member: Member, hit: "Hit") -> AnyArray:
+    def _nearest_of(self, panel: int, member: Member, hit: Hit) -> AnyArray:
         """Return the point (3,) of a member that is nearest to a place."""
         pieces = pieces_of(member, self.context.session.mesh(panel).surface)
         start, stop = pieces.positions(self._grid.panel(panel).positions)
@@ -203,13 +271,13 @@ class SourceGestures(Gesture):
         nearest: AnyArray = points[np.linalg.norm(points - hit.position, axis=1).argmin()]
         return nearest
 
-    def _is_near(self, panel: int, point: FloatArray, hit: "Hit", pixels: float) -> bool:
+    def _is_near(self, panel: int, point: FloatArray, hit: Hit, pixels: float) -> bool:
         view = self._grid.panel(panel).view
         away = view.place_of(point) - view.place_of(hit.position)
         return float(np.hypot(away.x(), away.y())) <= pixels
 
     # ------------------------------------------------------------------ the menu
-    def offer(self, menu: QtWidgets.QMenu, panel: int, hit: "Hit") -> None:
+    def offer(self, menu: QtWidgets.QMenu, panel: int, hit: Hit) -> None:
         """Add what can be done to the source to a menu."""
         menu.addAction("Source here\tClick", lambda: self._click_by_menu(panel, hit))
         member, members = self._member_at(panel, hit), self._members(panel)
@@ -225,11 +293,11 @@ class SourceGestures(Gesture):
             if members and loop not in members:
                 menu.addAction("Add this boundary to the source", lambda: self.add(panel, loop))
 
-    def _click_by_menu(self, panel: int, hit: "Hit") -> None:
+    def _click_by_menu(self, panel: int, hit: Hit) -> None:
         self.context.picked.emit(panel, hit)
         self.click(panel, Click(hit))
 
-    def _loop_near(self, panel: int, hit: "Hit") -> BoundaryLoop | None:
+    def _loop_near(self, panel: int, hit: Hit) -> BoundaryLoop | None:
         surface, positions = self.context.session.mesh(panel).surface, self._grid.panel(panel).positions
         edges = surface.boundary_edges
         if not len(edges):
@@ -250,7 +318,7 @@ class SourceGestures(Gesture):
         self._grid.marks.draw_on(is_drawing)
         self.context.tell("Drag over the surface to draw a source; Ctrl adds the curve, Esc ends" * is_drawing)
 
-    def _draw(self, panel: int, hit: "Hit | None") -> None:
+    def _draw(self, panel: int, hit: Hit | None) -> None:
         if hit is None:
             self._is_beside = True
             return

@@ -4,10 +4,9 @@ import argparse
 import os
 from typing import TYPE_CHECKING
 
-from ...commands.field_of import CommandField, field_of
+from ...commands.field import CommandField, field_of
 from ...commands.options import add_areas, add_chart, add_distance, add_mesh, add_sources, chart_page, eigenpair_count
-from ...commands.result import Facts, Result, facts_of
-from ...commands.terminal import progress_line
+from ...commands.terminal import Facts, Result, facts_of, progress_line
 
 if TYPE_CHECKING:
     from ...figures.chart_look import ChartLook

@@ -17,11 +17,10 @@ from ...drawing.numbers import share
 from ...qt.background import call
 from ...qt.context import Context
 from ...qt.docks.brushing import Brushing
-from ...qt.files.isoline_files import Levels, save_isolines
-from ...qt.files.writing import Writing
-from ...qt.look.form import describe
-from ...qt.look.layouts import in_column, in_row, push_button, quiet_label
-from ...qt.look.text_box import TextBox, mark_wrong
+from ...qt.files.field_files import Levels, save_isolines
+from ...qt.files.saving import Writing
+from ...qt.look.controls import TextBox, mark_wrong
+from ...qt.look.form import describe, in_column, in_row, push_button, quiet_label
 from ...qt.panels.flat_button import FlatButton
 
 SETTLE_MS = 250

@@ -16,10 +16,8 @@ from ...drawing.painters.qt import box_of, paint, rgba_of
 from ...drawing.shapes import Pen, disc
 from ...qt.context import Context
 from ...qt.docks.fact_table import FactTable
-from ...qt.look.form import describe
-from ...qt.look.layouts import in_column, push_button, quiet_label
-from ...qt.look.look import LOOK
-from ...qt.look.painting import smooth_painter
+from ...qt.look.form import describe, in_column, push_button, quiet_label
+from ...qt.look.look import LOOK, smooth_painter
 from ...session.loaded_mesh import LoadedMesh
 from ...session.questions import DistanceQuestion, Question
 

@@ -14,14 +14,11 @@ from ...document.on_surface import (
     surface_items,
 )
 from ...qt.context import Context
-from ...qt.docks.dock import PAD
-from ...qt.docks.instrument import Instrument
-from ...qt.docks.plain import fill
-from ...qt.docks.row_list import RowList
+from ...qt.docks.instrument import PAD, Instrument
+from ...qt.docks.plain import RowList, fill
+from ...qt.look.form import hairline, in_column, in_row, keep_room, push_button, quiet_label
 from ...qt.look.icons import pixmap
-from ...qt.look.layouts import hairline, in_column, in_row, keep_room, push_button, quiet_label
-from ...qt.look.look import LOOK
-from ...qt.look.painting import baseline, paint_elided, paint_rounded, smooth_painter
+from ...qt.look.look import LOOK, baseline, paint_elided, paint_rounded, smooth_painter
 from ...qt.panels.badges import RIM, SOURCE as SOURCE_COLOUR
 from ...qt.panels.flat_button import FlatButton
 from ...scene.style import PINS

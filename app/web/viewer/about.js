@@ -26,15 +26,14 @@ export function aboutBox(scene, hasAddress) {
   return dialog(
     "What this page is",
     element("p", {
-      text: "Distances on a surface, computed in this page each time the source moves, without a server.",
+      text: `Distances ${mesh.counts.tetrahedra ? "through a solid" : "on a surface"}, computed in this page each time the source moves, without a server.`,
     }),
     facts([
       ["Mesh", mesh.name],
-      ["Vertices", counted(mesh.vertices)],
-      ["Faces", counted(mesh.faces)],
+      ...Object.entries(mesh.counts).map(([name, count]) => [name[0].toUpperCase() + name.slice(1), counted(count)]),
       ["Stored with", kept],
       ...(differs.length ? [[compared, differs.join(", ")]] : []),
-      ["Areas", areas === "voronoi" ? "Voronoi" : "barycentric"],
+      mesh.operator ? ["Operator", mesh.operator] : ["Areas", areas === "voronoi" ? "Voronoi" : "barycentric"],
       ["Units", [...new Set(panels.map((panel) => `${panel.label}: ${panel.unit || "none"}`))].join("; ")],
     ]),
     ...notes.map((text) => element("p", { text })),

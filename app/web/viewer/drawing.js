@@ -1,6 +1,8 @@
 /** The surface in WebGL: one context for all panels, drawn when asked. */
 import { outside } from "./shape.js";
 import { withLabels } from "./labels.js";
+import { continued } from "./splats.js";
+import { putBetween } from "./cut.js";
 import { VERTEX_SHADER, FRAGMENT_SHADER } from "./shaders.js";
 
 const UNDEFINED = -1000, MOST_PIXELS = 2 ** 24;
@@ -72,10 +74,12 @@ export class Drawing {
     const { gl } = this, held = this.panels[panel], scale = high > low ? 1 / (high - low) : 0;
     if (!labels) held.labels = null;
     else if (held.labels?.values !== values) held.labels = { values, held: this.#labelled(values) };
-    const { copies } = this.shape.drawn, shares = new Float32Array(values.length + copies.length);
+    const { drawn, isOfPoints } = this.shape, { copies, cut } = drawn, shares = new Float32Array(values.length + copies.length);
     const share = (value) => (value === value ? (value - low) * scale : UNDEFINED);
     for (let k = 0; k < values.length; k++) shares[k] = share(values[k]);
-    for (let k = 0; k < copies.length; k++) shares[values.length + k] = shares[copies[k]];
+    if (isOfPoints) continued(shares, values.length, drawn, UNDEFINED);
+    else for (let k = 0; k < copies.length; k++) shares[values.length + k] = shares[copies[k]];
+    if (cut) putBetween(shares, cut, UNDEFINED);
     gl.bindBuffer(gl.ARRAY_BUFFER, held.values);
     gl.bufferSubData(gl.ARRAY_BUFFER, 0, shares);
     const at = Float32Array.from(levels, (value) => (value - low) * scale);
@@ -158,7 +162,7 @@ export class Drawing {
   }
 
   #drawFaces() {
-    this.gl.drawElements(this.gl.TRIANGLES, 3 * this.shape.m, this.gl.UNSIGNED_INT, 0);
+    this.gl.drawElements(this.gl.TRIANGLES, this.shape.drawn.corners.length, this.gl.UNSIGNED_INT, 0);
   }
 
   /** The nearest back faces, and before them the nearest front faces; each where it is nearest, which is found first. */

@@ -59,6 +59,30 @@ export function paintCursor(brush, x, y) {
   }
 }
 
+/** What the clip plane cuts away of source and pins, in the words of the window, from the longest to the shortest. */
+export function cutAwayWords({ sight, mesh, source, pins }) {
+  const isGone = (vertex) => sight.shape.depth(sight.shape.place(vertex)) < 0;
+  const gone = pins.flatMap(({ vertex }, k) => (isGone(vertex) ? [`Pin ${k + 1}`] : []));
+  if (isGone(source)) gone.unshift(`Vertex ${mesh.ids[source]}`);
+  if (!gone.length) return [];
+  const count = gone.length - 1, others = count ? ` and ${count} other mark${count > 1 ? "s" : ""} are` : " is";
+  return [" by the clip plane", ""].map((plane) => `${gone[0]}${others} cut away${plane}.`);
+}
+
+/** The first words that have room, in the upper left corner of a view's box. */
+export function paintNote(brush, box, notes, theme) {
+  brush.font = `400 12.5px ${theme.font}`;
+  const words = notes.find((text) => brush.measureText(text).width <= 0.85 * box.width - 14) ?? notes.at(-1);
+  brush.beginPath();
+  brush.roundRect(box.x + 4, box.y + 2, 20 + brush.measureText(words).width, 26, 4);
+  brush.globalAlpha = 0.8;
+  brush.fillStyle = theme.canvas;
+  brush.fill();
+  brush.globalAlpha = 1;
+  brush.fillStyle = theme.quiet;
+  brush.fillText(words, box.x + 14, box.y + 19.5);
+}
+
 /** Value and fraction of the maximum beside the pointer, inside the view's box. */
 export function paintLabel(brush, x, y, box, { value, fraction }, answer, theme) {
   const bold = valueText(answer, value);

@@ -3,8 +3,9 @@
 const LEAF = 8, AXIS_BITS = 10;
 
 export class FaceTree {
-  /** @param {{m: number, places: Float32Array, faces: Int32Array}} shape */
-  constructor({ m, places, faces }) {
+  /** @param {{places: Float32Array, faces: Int32Array}} shape */
+  constructor({ places, faces }) {
+    const m = faces.length / 3;
     this.places = places;
     this.faces = faces;
     this.order = nearInOrder(m, places, faces);

@@ -1,16 +1,20 @@
 /** A mesh as it is drawn: moved to the origin and of radius about 1, so that single precision is enough. */
 import { split } from "./creases.js";
+import { cutPlaces, withCut, joinedArrays } from "./cut.js";
+import { hexagons } from "./splats.js";
 import { dot } from "./vectors.js";
 
 export class Shape {
   /**
    * drawn: `places` and `normals` of the vertices and, from n on, of their `copies` at creases, and the `corners` of faces
-   * among these.  hasBacks: the faces turn counterclockwise outside, and their other side can be seen.
-   * @param {{n: number, m: number, positions: Float64Array, faces: Int32Array}} mesh
-   * @param {{crease: number | null, backs: boolean, clip: number[] | null, opacity: number}} shading clip: x, y and z of a plane's normal,
+   * among these; of points without faces those of hexagons.  hasBacks: the faces turn counterclockwise outside, and their other side can be seen.
+   * @param {import("./unpack.js").Mesh} mesh
+   * @param {{crease: number | null, backs: boolean, clip: number[] | null, opacity: number,
+   *   cut?: {ends: number[], weights: number[], faces: number[]} | null}} shading cut: of a solid, see cut.js; clip: x, y and z of a plane's normal,
    *   beyond which the surface is cut away, and its distance from the origin along that
    */
-  constructor({ n, m, positions, faces, faceComponents }, { crease, backs, clip, opacity } = { crease: null, backs: false, opacity: 1 }) {
+  constructor(mesh, { crease, backs, clip, cut, opacity } = { crease: null, backs: false, opacity: 1 }) {
+    const { n, m, positions, faces, faceComponents } = mesh;
     const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
     for (let k = 0; k < 3 * n; k++) {
       low[k % 3] = Math.min(low[k % 3], positions[k]);
@@ -24,14 +28,37 @@ export class Shape {
     this.radius = Math.hypot(...low.map((x, axis) => high[axis] - x)) / 2 || 1;
     this.places = new Float32Array(3 * n);
     for (let k = 0; k < 3 * n; k++) this.places[k] = (positions[k] - this.centre[k % 3]) / this.radius;
-    const { corners, copies } = split(this, crease), places = new Float32Array(3 * (n + copies.length));
-    places.set(this.places);
-    for (const [k, vertex] of copies.entries()) places.set(this.place(vertex), 3 * (n + k));
-    this.drawn = { places, normals: vertexNormals(places, corners), corners, copies };
+    this.isOfPoints = mesh.normals !== undefined;
+    this.drawn = this.isOfPoints ? hexagons(this.places, mesh) : this.#split(crease);
     this.hasBacks = backs;
     this.opacity = opacity;
     const normal = clip && clip.slice(0, 3), onPlane = clip && this.inward(normal.map((x) => clip[3] * x));
     this.clip = clip && [...normal.map((x) => -x), dot(normal, onPlane)];
+    /** What lines of sight meet. */
+    this.met = this.isOfPoints ? { ...this.drawn, faces: this.drawn.corners } : this;
+    if (cut) {
+      const at = cutPlaces(this.places, cut, this.clip), corners = cut.faces.map((corner) => n + corner);
+      this.met = { places: joinedArrays(this.places, at), faces: joinedArrays(faces, corners) };
+      this.drawn = withCut(this.drawn, at, cut, this.clip);
+    }
+  }
+
+  #split(crease) {
+    const { n } = this, { corners, copies } = split(this, crease), places = new Float32Array(3 * (n + copies.length));
+    places.set(this.places);
+    for (const [k, vertex] of copies.entries()) places.set(this.place(vertex), 3 * (n + k));
+    return { places, normals: vertexNormals(places, corners), corners, copies };
+  }
+
+  /** The vertex nearest to a point of the picture, of those that the clip plane leaves. */
+  nearest(point) {
+    const { n, places, clip } = this, [x, y, z] = point;
+    let best = 0, least = Infinity;
+    for (let v = 0; v < n; v++) {
+      const away = (places[3 * v] - x) ** 2 + (places[3 * v + 1] - y) ** 2 + (places[3 * v + 2] - z) ** 2;
+      if (away < least && (!clip || this.depth(this.place(v)) >= 0)) [best, least] = [v, away];
+    }
+    return best;
   }
 
   /** How far a point of the picture is from the clip plane; negative where it is cut away. */

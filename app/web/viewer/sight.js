@@ -43,7 +43,7 @@ export class Sight {
   }
 
   get tree() {
-    return (this.faceTree ??= new FaceTree(this.shape));
+    return (this.faceTree ??= new FaceTree(this.shape.met));
   }
 
   #aspect(k) {
@@ -54,9 +54,10 @@ export class Sight {
     return [(2 * x) / this.boxes[k].width - 1, 1 - (2 * y) / this.boxes[k].height];
   }
 
-  /** What is met at a place of a view, see `FaceTree.hit`. */
+  /** What is met at a place of a view, see `FaceTree.hit`; nothing on the cut through a solid. */
   hit(k, x, y) {
-    return this.#met(this.camera.ray(...this.#inView(k, x, y), this.#aspect(k)));
+    const met = this.#met(this.camera.ray(...this.#inView(k, x, y), this.#aspect(k)));
+    return met && met.vertex < this.shape.n ? met : null;
   }
 
   /** What a line of sight meets of what the clip plane leaves. */
@@ -66,7 +67,8 @@ export class Sight {
     if (!(start >= 0 && start < Infinity)) return null;
     const isLeft = (vertex) => shape.depth(shape.place(vertex)) >= 0;
     const hit = this.tree.hit({ origin: plus(origin, direction, start), direction }, isLeft);
-    return hit && shape.depth(hit.point) > -1e-6 ? { ...hit, away: hit.away + start } : null;
+    if (!hit || shape.depth(hit.point) <= -1e-6) return null;
+    return { ...hit, away: hit.away + start, ...(shape.isOfPoints && { vertex: shape.nearest(hit.point) }) };
   }
 
   /** Whether the surface leaves a vertex in sight, as a translucent one does. */

@@ -2,7 +2,7 @@
 
 /** The worker; its own text is all it knows. */
 function work() {
-  const [POINTS, FACES, WEIGHTS, AREAS, BIHARMONIC, COMMUTE_TIME, GEODESIC, RESOLVENT] = [0, 1, 2, 3, 4, 5, 6, 7];
+  const [POINTS, FACES, WEIGHTS, AREAS, BIHARMONIC, COMMUTE_TIME, GEODESIC, RESOLVENT, START, INDEX, VALUE] = Array(11).keys();
   const PLACE = { biharmonic: BIHARMONIC, commute_time: COMMUTE_TIME, geodesic: GEODESIC };
   const TOO_THIN = "The faces of the mesh are too thin for the solver.";
   const MOST_INSTANCES = 8, WINDOWS_PER_VERTEX = 2000, WINDOWS_AT_LEAST = 200000;
@@ -19,11 +19,32 @@ function work() {
       this.kernel.page_begin(this.n, this.m);
       this.blocks = new Map(); // the factors at poles, those that were used last behind the others
       this.doubles(POINTS, 3 * this.n).set(mesh.positions.subarray(3 * first, 3 * end));
-      const faces = new Int32Array(this.kernel.memory.buffer, this.kernel.page_array(FACES), 3 * this.m);
+      const faces = this.ints(FACES, 3 * this.m);
       for (let k = 0; k < faces.length; k++) faces[k] = mesh.faces[3 * firstFace + k] - first;
     }
     doubles(which, count) {
       return new Float64Array(this.kernel.memory.buffer, this.kernel.page_array(which), count);
+    }
+    ints(which, count) {
+      return new Int32Array(this.kernel.memory.buffer, this.kernel.page_array(which), count);
+    }
+    /** Rows of the matrix that the mesh comes with: what is below the diagonal, on it, and above it. */
+    enter() {
+      const { first, n } = this, from = mesh.start[first], end = mesh.start[first + n], sums = new Float64Array(n);
+      this.kernel.page_matrix(n + 2 * (end - from));
+      const start = this.ints(START, n + 1).fill(1, 1), index = this.ints(INDEX, n + 2 * (end - from));
+      const value = this.doubles(VALUE, index.length);
+      const each = (act) => {
+        for (let i = 0, e = from; i < n; i++)
+          for (; e < mesh.start[first + i + 1]; e++) act(i, mesh.index[e] - first, mesh.weights[e]);
+      };
+      each((i, j, weight) => [i, j].forEach((v) => (start[v + 1]++, (sums[v] += weight))));
+      for (let v = 0; v < n; v++) start[v + 1] += start[v];
+      const put = start.slice(), enterAt = (i, j, x) => ((index[put[i]] = j), (value[put[i]++] = x));
+      each((i, j, weight) => enterAt(j, i, -weight));
+      for (let v = 0; v < n; v++) enterAt(v, v, sums[v]);
+      each((i, j, weight) => enterAt(i, j, -weight));
+      this.doubles(AREAS, n).set(mesh.areas.subarray(first, first + n));
     }
     correct() {
       const { first, n, firstFace, m } = this, weights = this.doubles(WEIGHTS, 3 * m), areas = this.doubles(AREAS, n);
@@ -35,8 +56,11 @@ function work() {
     }
     order() {
       if (this.ordered) return;
-      this.kernel.page_measure(scene.areas === "barycentric" ? 1 : 0);
-      this.correct();
+      if (mesh.weights) this.enter();
+      else {
+        this.kernel.page_measure(scene.areas === "barycentric" ? 1 : 0);
+        this.correct();
+      }
       postMessage({ words: "Ordering the vertices" });
       if (this.kernel.page_order()) throw new Error("The mesh cannot be ordered for elimination.");
       this.ordered = true;

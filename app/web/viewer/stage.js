@@ -4,7 +4,7 @@ import { Drawing } from "./drawing.js";
 import { themeOf, coloursOf } from "./theme.js";
 import { reading, functionOf } from "./fields.js";
 import { paintBar, barWords } from "./colour_bar.js";
-import { paintShapes, paintCursor, paintLabel } from "./marks.js";
+import { paintShapes, paintCursor, paintLabel, paintNote, cutAwayWords } from "./marks.js";
 
 const NARROWEST = 180, LOWEST = 180, COMFORTABLE = 320, WITHOUT_VIEW = 100, HEAD = 36, PICTURE_SCALE = 2, PALE = 0.6;
 
@@ -126,14 +126,17 @@ export class Stage {
     brush.setTransform(scale, 0, 0, scale, 0, 0);
     brush.clearRect(0, 0, this.grid.offsetWidth, this.grid.offsetHeight);
     this.#paintAll(brush, viewer, viewer.pointing.place);
+    const [gone = ""] = cutAwayWords(viewer);
     for (const [k, bar] of this.bars.entries()) {
       const { left, right } = barWords(this.scene.panels[k], viewer.current[k], null);
       this.panels[k].classList.toggle("computing", viewer.isStale(k));
+      this.views[k].setAttribute("aria-description", gone);
       bar.setAttribute("aria-label", right ? `Colours: ${left}, ${right}` : "Computing");
     }
   }
 
   #paintAll(brush, viewer, pointed) {
+    const notes = cutAwayWords(viewer);
     for (const [k, { x, y, width, height }] of this.boxes.entries()) {
       const answer = viewer.current[k], levels = viewer.levels[k]?.values ?? [];
       const value = pointed && answer ? reading(answer, pointed.vertex).value : null;
@@ -145,6 +148,7 @@ export class Stage {
       brush.clip();
       if (viewer.isStale(k)) this.#pale(brush, this.boxes[k]);
       this.#paintMarks(brush, viewer, k);
+      if (notes.length) paintNote(brush, this.boxes[k], notes, this.theme);
       if (pointed) this.#paintPointed(brush, viewer, k, pointed);
       brush.restore();
     }

@@ -22,7 +22,7 @@ export class ToolBar {
       element("h1", { text: title, title }),
       element("span", {
         class: "quiet counts",
-        text: `${counted(mesh.vertices)} vertices  ${counted(mesh.faces)} faces`,
+        text: Object.entries(mesh.counts).map(([name, count]) => `${counted(count)} ${name}`).join("  "),
       }),
       this.back,
       this.forward,

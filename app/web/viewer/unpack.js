@@ -2,12 +2,16 @@
 
 /**
  * What the solver takes of a page or of a widget.
- * @param {Object<string, Uint8Array | string>} packed the kernel, the mesh, given fields, and points
+ * @param {Object<string, Uint8Array | string>} packed the kernel, the mesh, given fields, points, and of a mesh with
+ *   matrices of its own weights and areas, of one without faces normals
  * @param {{given: string[]}} scene
  */
 export async function unpackedContents(packed, scene) {
   const [wasm, mesh] = [await inflated(packed.kernel), unpackedMesh(await inflated(packed.mesh))];
   const given = unpackedFields(await inflated(packed.given), mesh, scene.given), points = {};
+  for (const [name, count] of packed.weights ? [["weights", mesh.index.length], ["areas", mesh.n]] : [])
+    Object.assign(mesh, unpackedFields(await inflated(packed[name]), { n: count }, [name]));
+  if (packed.normals) mesh.normals = new Int8Array((await inflated(packed.normals)).buffer);
   for (const [name, content] of Object.entries(packed))
     if (name.startsWith("points-")) points[name.slice("points-".length)] = unpackedPoints(await inflated(content), mesh);
   return { wasm, mesh, given, points };
@@ -40,13 +44,19 @@ function* varints(bytes) {
  * @property {Int32Array} ids (n) the file's number of each vertex
  * @property {Int32Array} components (c + 1) the first vertex of each, and n
  * @property {Int32Array} faceComponents (c + 1) the first face of each, and m
+ * @property {Int32Array} start (n + 1) where the entries of each row of the stiffness matrix above its diagonal begin, if
+ *   that does not follow from the faces
+ * @property {Int32Array} index (e) the columns of these
+ * @property {Float64Array} [weights] (e) these entries, without their sign
+ * @property {Float64Array} [areas] (n)
+ * @property {Int8Array} [normals] (3 n) of points without faces, 127 times as long as 1
  */
 
 /** @param {Uint8Array} bytes @returns {Mesh} */
 export function unpackedMesh(bytes) {
   const [lowX, lowY, lowZ, step] = new Float64Array(bytes.slice(0, 32).buffer);
   const numbers = varints(bytes.subarray(32)), next = () => numbers.next().value;
-  const [n, m, count, floats] = [next(), next(), next(), next()];
+  const [n, m, count, floats, e] = [next(), next(), next(), next(), next()];
   const sums = (array, stride, first) => {
     for (let k = first, sum = 0; k < array.length; k += stride) array[k] = sum += next();
     return array;
@@ -55,10 +65,12 @@ export function unpackedMesh(bytes) {
   const faces = sums(new Int32Array(3 * m), 3, 0);
   for (let k = 0; k < 3 * m; k += 3) (faces[k + 1] = faces[k] + next()), (faces[k + 2] = faces[k] + next());
   const ids = sums(new Int32Array(n), 1, 0);
+  const start = new Int32Array(n + 1), index = new Int32Array(e);
+  if (e) sums(start, 1, 1), sums(index, 1, 0);
   const words = fromPlanes(bytes.subarray(bytes.length - 12 * n), 3 * n);
-  const positions = floats ? new Float64Array(new Float32Array(words.buffer)) : predicted(words, faces);
+  const positions = floats ? new Float64Array(new Float32Array(words.buffer)) : predicted(words, e ? () => entries({ start, index }) : () => sides(faces));
   if (!floats) for (let k = 0; k < 3 * n; k++) positions[k] = positions[k] * step + [lowX, lowY, lowZ][k % 3];
-  return { n, m, positions, faces, ids, components, faceComponents };
+  return { n, m, positions, faces, ids, components, faceComponents, start, index };
 }
 
 // Words of 4 bytes, of which all first bytes come first, then all second ones: alike bytes are beside each other.
@@ -68,19 +80,24 @@ function fromPlanes(planes, count) {
   return words;
 }
 
-// Each vertex is where it differs by so much from the mean of its neighbours with lesser numbers, once for each face.
-function predicted(differences, faces) {
-  const n = differences.length / 3, first = new Int32Array(n + 1), lesser = new Int32Array(faces.length);
-  const sides = function* () {
-    for (let k = 0; k < faces.length; k++) {
-      const [a, b] = [faces[k], faces[k % 3 === 2 ? k - 2 : k + 1]];
-      yield a < b ? [b, a] : [a, b];
-    }
-  };
-  for (const [v] of sides()) first[v + 1]++;
+// Of each side of a face, and of each entry of a matrix above its diagonal, the greater number and the lesser.
+function* sides(faces) {
+  for (let k = 0; k < faces.length; k++) {
+    const [a, b] = [faces[k], faces[k % 3 === 2 ? k - 2 : k + 1]];
+    yield a < b ? [b, a] : [a, b];
+  }
+}
+export function* entries({ start, index }) {
+  for (let v = 0; v + 1 < start.length; v++) for (let e = start[v]; e < start[v + 1]; e++) yield [index[e], v];
+}
+
+// Each vertex is where it differs by so much from the mean of its neighbours with lesser numbers, once for each pair.
+function predicted(differences, pairs) {
+  const n = differences.length / 3, first = new Int32Array(n + 1);
+  for (const [v] of pairs()) first[v + 1]++;
   for (let v = 0; v < n; v++) first[v + 1] += first[v];
-  const put = first.slice();
-  for (const [v, neighbour] of sides()) lesser[put[v]++] = neighbour;
+  const put = first.slice(), lesser = new Int32Array(first[n]);
+  for (const [v, neighbour] of pairs()) lesser[put[v]++] = neighbour;
   const at = new Float64Array(3 * n);
   for (let v = 0; v < n; v++)
     for (let axis = 0, count = first[v + 1] - first[v]; axis < 3; axis++) {

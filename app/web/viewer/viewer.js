@@ -57,6 +57,7 @@ export class Viewer {
       crease: scene.crease,
       backs: scene.mesh.backs,
       clip: scene.clip,
+      cut: scene.cut,
       opacity: scene.opacity,
     });
     this.#build();

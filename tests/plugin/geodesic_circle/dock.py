@@ -2,8 +2,7 @@
 
 from bihdist.document.document import Document
 from bihdist.qt.context import Context
-from bihdist.qt.docks.dock import PAD
-from bihdist.qt.docks.instrument import Instrument
+from bihdist.qt.docks.instrument import PAD, Instrument
 from bihdist.qt.docks.plain import fill
 from qtpy import QtCore, QtWidgets
 

@@ -1,8 +1,7 @@
 """What is to be seen of the circle."""
 
 import numpy as np
-from bihdist.drawing.glyphs import PIN
-from bihdist.drawing.line_looks import PATH
+from bihdist.drawing.glyphs import PATH, PIN
 from bihdist.marks.marked_panel import MarkedPanel
 from bihdist.marks.primitives import LineMark, PointMark, SurfaceMark
 

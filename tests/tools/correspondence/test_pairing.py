@@ -15,6 +15,7 @@ from app.document.second_mesh_edits import close_second_mesh, open_second_mesh
 from app.document.shared_parts.pins import Pins, add_pins, remove_pins
 from app.figures.export import compute, open_document
 from app.session.array_store import ArrayStore
+from app.tools.correspondence.answers import MAX_SPARE_COLUMNS, NO_OTHER, KnownColumns, candidate_of
 from app.tools.correspondence.pairs import (
     MOST_PAIRS,
     Pair,
@@ -31,7 +32,6 @@ from app.tools.correspondence.pairs import (
     waiting_point,
     whole_pairs,
 )
-from app.tools.correspondence.prediction_answers import MAX_SPARE_COLUMNS, NO_OTHER, KnownColumns, candidate_of
 from app.tools.correspondence.quantity import Prediction, predict, predicts, show_distances
 from bihdist_core import BiharmonicDistance, Correspondence, ParameterError, write_mesh
 from bihdist_core.distances.distance_types import Spec

@@ -10,8 +10,8 @@ from app.document.file import read_recipe
 from app.drawing.glyphs import CANDIDATE
 from app.figures.export import compute, figure_of, open_document
 from app.session.array_store import ArrayStore
+from app.tools.correspondence.answers import KnownColumns
 from app.tools.correspondence.pairs import half_pair
-from app.tools.correspondence.prediction_answers import KnownColumns
 from app.tools.correspondence.quantity import Prediction
 from bihdist_core import BiharmonicDistance, Correspondence, GeodesicDistance, Surface
 from bihdist_core.distances.distance_types import Spec

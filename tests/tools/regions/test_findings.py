@@ -10,9 +10,8 @@ from app.document.edits import mark_extrema, move_source, put_point
 from app.document.panel_edits import panel_edits, possible_edits
 from app.document.quantities import OwnField, quantity
 from app.document.shared_parts.pins import Pins, add_pins, remove_pins
-from app.drawing.glyphs import TRIANGLE_DOWN, TRIANGLE_UP
-from app.drawing.line_looks import BOUNDARY
-from app.session.farthest_points import SamplesRequest, find_samples
+from app.drawing.glyphs import BOUNDARY, TRIANGLE_DOWN, TRIANGLE_UP
+from app.session.chosen_sources import SamplesRequest, find_samples
 from app.session.session import Session
 from app.tools.quality.quality_worker import KnownQuality, QualityWorker
 from app.tools.regions.division import Dividing, regions_questions

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import app as bihdist
-from app.commands.figure_options import add_figure_options, chosen_recipe
+from app.commands.figure import add_figure_options, chosen_recipe
 from app.document.derived_surfaces import without_changed
 from app.document.document import Document, comparison
 from app.document.edits import open_mesh as with_mesh

@@ -141,7 +141,7 @@ def read_again(line):
     import argparse
     import shlex
 
-    from app.commands.figure_options import add_figure_options, chosen_recipe
+    from app.commands.figure import add_figure_options, chosen_recipe
 
     parser = argparse.ArgumentParser()
     add_figure_options(parser, "")

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from app.tools.source.strokes import source_from_strokes
+from app.tools.source.gestures import source_from_strokes
 from bihdist_core import Curve, SourceSet, Surface, SurfacePoint
 from bihdist_core.sources.pieces import pieces_of
 from tests.shapes import grid, two_pieces

@@ -90,7 +90,7 @@ def test_truncation_goes_with_the_slider_and_the_source(loaded):
 
 
 def test_isolines_and_the_region_between_two_values_are_saved(loaded, tmp_path):
-    from app.qt.files.isoline_files import save_isolines
+    from app.qt.files.field_files import save_isolines
 
     s, box = loaded, loaded.dock.levels
     save_isolines(s.window.context, s.window.grid.active, str(tmp_path / "lines.csv"))
@@ -162,7 +162,7 @@ def test_truncation_follows_sources_of_other_kinds(loaded):
 
 def test_isolines_are_saved_from_the_menu_of_a_place_too(loaded, tmp_path):
     s = loaded
-    from app.qt.files.isoline_files import save_isolines
+    from app.qt.files.field_files import save_isolines
     from app.qt.panels.events import MenuWanted
 
     save_isolines(s.window.context, s.document.panels[1].id, str(tmp_path / "lines.csv"))

@@ -263,7 +263,7 @@ def test_esc_clears_selections_and_borders_of_closed_tools_in_one_step(window):
 
 
 def test_the_palette_finds_what_clears_a_selection(window):
-    from app.qt.pages.commands import found
+    from app.qt.pages.palette import found
 
     s = window
     commands = parts(s.window).guide.commands()
