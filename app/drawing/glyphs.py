@@ -1,4 +1,4 @@
-"""The shapes of marked points and the looks of lines, each defined once: the window and figures paint them from here.
+"""The shapes of marked points, with the places of labels beside them, and the looks of lines, each defined once.
 
 Outlines are in unit coordinates about the place that is marked, with y down; a glyph's outside is at 1.
 """
@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from math import acos, cos, degrees, radians, sin, tan
 
-from .shapes import CIRCLE, Path, Pen, Point, Segment, Shape, Subpath, Text, opaque, polyline
+from .shapes import CIRCLE, Box, Path, Pen, Point, Segment, Shape, Subpath, Text, disc, hexadecimal, opaque, polyline
 
 
 @dataclass(frozen=True)
@@ -324,3 +324,55 @@ SECTION = LineLook("section", (Stroke("section", 1.8),), rank=-1)
 """The look of the line where a clip plane cuts a surface."""
 SOURCE = LineLook("source", (Stroke("mark_edge", 6.0), Stroke("source", 3.5)), rank=2)
 """The look of a line from which a field starts."""
+
+
+RADIUS, ECHO = 8.0, 6.0
+"""Logical pixels: the radius of the ring under the pointer, and of that in the other panels."""
+
+REACH = 14
+"""Logical pixels about a place that its ring may cover."""
+
+BRIGHT, DARK = hexadecimal("#FFFFFF"), hexadecimal("#14161A")
+
+
+def ring_shapes(at: Point, is_own: bool, is_hidden: bool = False, scale: float = 1.0) -> list[Shape]:
+    """Return a white ring between dark rims, with a dot in the panel of the pointer; dashed behind the surface."""
+    radius = scale * (RADIUS if is_own else ECHO)
+    shapes: list[Shape] = []
+    for colour, width in ((DARK, 4.5), (BRIGHT, 2.0)):
+        dashes = (4.0 / width, 3.0 / width) if is_hidden else ()
+        shapes.append(disc(at, radius, pen=Pen(colour, scale * width, dashes)))
+    if is_own:
+        shapes.append(disc(at, 2.0 * scale, BRIGHT, Pen(DARK, scale)))
+    return shapes
+
+
+AWAY, RIM = 9.0, 6.0
+"""Logical pixels from a place to its label, and to the rim of its mark."""
+
+
+def label_boxes(
+    places: Sequence[Point], sizes: Sequence[Point], ranks: Sequence[int], view: Box, scale: float = 1.0
+) -> list[Box | None]:
+    """Place labels (width, height) in a view, off each other and off all places; None where there is no room.
+
+    Those of the lowest rank are placed first, and of rank 0 stand somewhere whatever they cover.
+    """
+    found: list[Box | None] = [None] * len(places)
+    dots = [Box(*at, 0.0, 0.0).grown(RIM * scale) for at in places]
+    for k in sorted(range(len(places)), key=lambda k: ranks[k]):
+        taken = [box for box in found if box is not None] + dots[:k] + dots[k + 1 :]
+        boxes = [box for box in _beside(places[k], sizes[k], scale) if view.contains(box)]
+        found[k] = next((box for box in boxes if not any(box.meets(other) for other in taken)), None)
+        if found[k] is None and not ranks[k]:
+            found[k] = next(iter(boxes), None)
+    return found
+
+
+def _beside(at: Point, size: Point, scale: float) -> list[Box]:
+    """Return boxes at the right, the left, above, below, and at the corners of a place."""
+    (x, y), (wide, high), away = at, size, AWAY * scale
+    near = 0.7 * away
+    lefts = (away, -away - wide, -wide / 2, -wide / 2, near, -near - wide, near, -near - wide)
+    tops = (-high / 2, -high / 2, -away - high, away, -near - high, -near - high, near, near)
+    return [Box(x + left, y + top, wide, high) for left, top in zip(lefts, tops, strict=True)]

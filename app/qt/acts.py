@@ -31,7 +31,7 @@ from .views import Views
 
 VIEWS = ("front", "back", "left", "right", "top", "bottom", "source")
 VIEW_TEXTS = {"right": "Ri&ght", "bottom": "Botto&m", "source": "From the &source"}
-"""Where not the first letter is the key in a menu."""
+"""Menu texts of views whose access key is not the first letter."""
 
 BRAIN_VIEWS = ANATOMICAL[:6]
 BRAIN_SYNONYMS = {new: old for old, new in SAME_VIEWS.items()}

@@ -10,7 +10,7 @@ from .context import Context
 from .panels.events import Click
 
 FIRST, LAST = -1, 1
-"""Of the gestures of tools, when they are asked whether something is meant for them."""
+"""The turns of gestures that are asked before, and after, those of tools whether an event is meant for them."""
 
 
 class Gesture(QtCore.QObject):

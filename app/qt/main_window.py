@@ -320,7 +320,7 @@ class MainWindow(QtWidgets.QMainWindow):
             self._tell(message)
 
     def _tell(self, message: str) -> None:
-        """Above the panels; what is longer, or said while a dialog is open, in a dialog."""
+        """Show a message above the panels, or in a dialog if it is long or another dialog is open."""
         if len(message) > LONGEST_NOTICE or QtWidgets.QApplication.activeModalWidget() is not None:
             tell(self, message)
         else:
@@ -328,12 +328,12 @@ class MainWindow(QtWidgets.QMainWindow):
             self.notice.show_text(message, "error", ("Copy", copy), NOTICE_SECONDS)
 
     def _offer_undo(self, sentence: str) -> None:
-        """Another mesh was opened: say what only undo still has."""
+        """Tell what only undo brings back, as another mesh was opened."""
         if not self.context.quiet:
             self.notice.show_text(sentence, action=("Undo", self.session.undo), seconds=NOTICE_SECONDS)
 
     def announce_soon(self) -> None:
-        """Once the repaints that are queued have been done."""
+        """Announce that the panels are complete, once they have been repainted."""
         if self.session.is_complete and not self.session.progress:
             QtCore.QTimer.singleShot(0, self._announce)
 
@@ -357,6 +357,6 @@ class MainWindow(QtWidgets.QMainWindow):
         return bool(super().focusNextPrevChild(is_next))
 
     def _show_dropping(self, is_dropping: bool) -> None:
-        """Set whether something is held over the window that may be dropped."""
+        """Show on the start page whether something that can be dropped is held over the window."""
         if self._start_page is not None:
             self._start_page.set_dropping(is_dropping)

@@ -17,16 +17,16 @@ from ..document.tools import docked_tools
 from . import remembered
 
 VERSION = 1
-"""Of the file; one of a newer program is left alone."""
+"""Version of the file; one of a newer program is left alone."""
 
 FIRST_SIZE = QtCore.QSize(1400, 860)
-"""Of the window, in logical pixels, where the screen has room for it."""
+"""Size of the first window in logical pixels, where the screen has room for it."""
 
 MARGIN = 40
-"""What a screen is larger than a window on it, in each direction."""
+"""Logical pixels by which a screen is larger than the first window, in each direction."""
 
 REACHABLE = QtCore.QSize(120, 12)
-"""So much of a window's top has to be on a screen for the user to get hold of it."""
+"""Part of a window's top that has to be on a screen, so that the user can drag it."""
 
 
 def path() -> Path:

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from .panels.camera_controller import CameraController
 
 Cameras = tuple[tuple[str, View], ...]
-"""From where each surface is seen, by its name in the document."""
+"""The view of each surface, by its name in the document."""
 
 STILL_MS = 500
 """When the camera has not moved for so long, what is seen is a view that one can come back to."""
@@ -135,7 +135,7 @@ class Views(QtCore.QObject):
 
     @property
     def _surface(self) -> str:
-        """That of the active panel, by its name in the document; before there are panels the first."""
+        """The name of the active panel's surface, or of the first one before there are panels."""
         document = self._context.document
         if self._context.is_built:
             return self._active_controller.surface

@@ -39,7 +39,7 @@ def srgb(lab: FloatArray) -> FloatArray:
 
 
 STOPS = 33
-"""Of the maps that are made here: between so many no other way from colour to colour is seen."""
+"""Stops of the maps made here: so many that steps between them are not seen."""
 
 
 SEEN_ON_DARK = 0.36

@@ -48,7 +48,7 @@ MOST_PEELS = 8
 """Each of them has two layers of what is translucent, the nearest and the farthest that are left."""
 
 MOST_LINES = 2 * MOST_ISOLINES + 64
-"""That the shader has room for: on both sides of 0, and through points."""
+"""Lines that the shader has room for: on both sides of 0, and through points."""
 
 # Values are in order.  Of the two lines nearest in value, one below and one above, the wider is painted last.
 _PAINT = """

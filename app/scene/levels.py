@@ -11,10 +11,10 @@ from bihdist_core.arrays import BoolArray, FloatArray
 from ..document.looks import MOST_ISOLINES, Isolines
 
 BOLD = 2.0
-"""By how much bold lines are wider than the others."""
+"""Width of bold lines in those of the others."""
 
 ZERO = 1.1
-"""By how much the line at 0 of a signed field is: it stands out by its colour, and where it winds it is not to blot."""
+"""Width of the line at 0 of a signed field, which stands out by its colour and must not blot where it winds."""
 
 
 @dataclass(frozen=True, eq=False)

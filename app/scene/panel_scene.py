@@ -81,7 +81,7 @@ USUAL = 400.0
 """Pixels, at scale 1, of the shorter side of a view from which on lines and marks have the size that a style says."""
 
 LEAST = 0.6
-"""Of that size, at least: what is white must still be seen."""
+"""Least fraction of that size, as white lines must still be seen."""
 
 
 def proportion(width: float, height: float) -> float:

@@ -13,7 +13,7 @@ from bihdist_core.arrays import AnyArray, FloatArray, IntArray
 
 CORNERS = 6
 SIZE = 0.9
-"""Times the mean distance of a point's neighbours: how far corners are from it."""
+"""Distance of a hexagon's corners from its point, in mean distances of the point's neighbours."""
 
 _ENDS, _SLOPES = "ends", "slopes"
 _TURN = 2 * np.pi * np.arange(CORNERS) / CORNERS

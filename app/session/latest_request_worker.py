@@ -17,7 +17,7 @@ REPORTS_PER_SECOND = 20
 QUIET_SECONDS = 0.15
 """Work shorter than this is not reported: it would only flicker."""
 NICE = 10
-"""By how much a lane, and the threads it starts, stand back for the window's thread and for drawing."""
+"""Niceness of a lane and of the threads it starts, which leave the window's thread and drawing the processor."""
 
 
 class LatestRequestWorker(Generic[Request]):

@@ -25,9 +25,8 @@ from ..document.on_surface import Hidden
 from ..document.page import Recipe
 from ..document.quantities import own_fields
 from ..document.shared_parts.pins import Pins
-from ..drawing.glyphs import DISC, PIN, SCREEN_NUMERAL, glyph_shapes
+from ..drawing.glyphs import DISC, PIN, SCREEN_NUMERAL, glyph_shapes, ring_shapes
 from ..drawing.painters.page import OWN, to_json
-from ..drawing.pointer import ring_shapes
 from ..drawing.shapes import RGBA, opaque
 from ..figures.description import Figure, FigurePanel
 from ..figures.export import Surfaces, figure_of

@@ -7,10 +7,8 @@ import pytest
 
 from app.drawing.axes import axes_shapes
 from app.drawing.colour_bar import BarColours, BarLine, across, bar_shapes, line_shapes, outline_shape
-from app.drawing.glyphs import CROSS, DISC, PIN, RING, TRIANGLE_UP, glyph_shapes
-from app.drawing.labels import label_boxes
+from app.drawing.glyphs import CROSS, DISC, PIN, RING, TRIANGLE_UP, glyph_shapes, label_boxes, ring_shapes
 from app.drawing.painters.page import OWN, to_json
-from app.drawing.pointer import ring_shapes
 from app.drawing.shapes import Box, Gradient, Group, Image, Path, Pen, Text, disc, line, opaque, rectangle, rounded
 from app.scene.style import PAPER
 

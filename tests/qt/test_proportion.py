@@ -9,7 +9,7 @@ from qtpy import QtCore
 from app.document.document import Point
 from app.document.looks import Isolines
 from app.document.shared_parts.pins import add_pins
-from app.qt.panels import mark_shapes
+from app.qt.panels.overlay import LEAST_SCALE
 from app.scene.levels import BOLD, ZERO, width_of
 from app.scene.panel_scene import LEAST, USUAL, proportion
 from app.scene.style import PAPER
@@ -75,7 +75,7 @@ def test_drops_are_smaller_in_small_views_where_they_are_clicked_too(loaded):
     s.window.resize(700, 560)
     s.until(lambda: view.proportion < 0.9)
     s.settle(0.1)
-    share = max(view.proportion, mark_shapes.LEAST_SCALE)
+    share = max(view.proportion, LEAST_SCALE)
     tip = view.place_of(view.over.points.positions("pins")[0])
     if tip.y() > 40:  # upright, as before
         assert reach(tip) == pytest.approx(share * usual, abs=1.5)

@@ -14,17 +14,17 @@ from ..look.canvas import map_word, offered_styles, style_entry, style_name
 from ..look.look import LOOK
 
 WIDTH, HEIGHT, MARGIN = 64, 12, 12
-"""Of a strip, and right of it, in logical pixels."""
+"""Size of a strip, and the margin right of it, in logical pixels."""
 
 LONGEST = 14
 """Letters of a file's name on the button."""
 
 FAINT = 0.35
-"""Of a strip that cannot be chosen: its opacity."""
+"""Opacity of a strip that cannot be chosen."""
 
 
 class BaseMenu(QtWidgets.QMenu):
-    """What is drawn in grey under isolines: curvature, or a field of the user's own."""
+    """The menu of what is drawn in grey under isolines: curvature, or a field of the user's own."""
 
     def __init__(self, context: Context) -> None:
         super().__init__("Base in grey", context.widget)
@@ -144,7 +144,7 @@ def _paint_strip(painter: QtGui.QPainter, box: QtCore.QRectF, stops: Stops) -> N
 
 
 def colours_in_words(style: str, colours: Colours) -> str:
-    """For the button: "Paper", "Ember, bands", "Lines only"."""
+    """Return the text of the button: "Paper", "Ember, bands", "Lines only"."""
     if not style_of(style).coloured:
         return style_name(style)
     word = map_word(style, colours)
@@ -207,7 +207,7 @@ class IsolineMenu(QtWidgets.QMenu):
 
 
 def isolines_in_words(isolines: Isolines) -> str:
-    """For the button: "20", "20 equal", "None", "0.05 apart", "3 values"."""
+    """Return the text of the button: "20", "20 equal", "None", "0.05 apart", "3 values"."""
     if isolines.spacing is not None:
         return f"{tick(isolines.spacing)} apart"
     if isolines.values:

@@ -31,11 +31,11 @@ TURNS = (
     *(f"{way} {side}" for way in ("turn", "move") for side in ("left", "right", "up", "down")),
     *("nearer", "farther", "remove anchor", "accept pair"),
 )
-"""By the words of their acts."""
+"""Actions that turn and move the camera, by their words."""
 
 
 class LargeIcons(QtWidgets.QProxyStyle):
-    """For menus whose icons are pictures."""
+    """A style for menus whose icons are pictures."""
 
     def pixelMetric(self, metric: Any, option: Any = None, widget: Any = None) -> int:
         if metric == QtWidgets.QStyle.PixelMetric.PM_SmallIconSize:
@@ -44,7 +44,7 @@ class LargeIcons(QtWidgets.QProxyStyle):
 
 
 class NoUnderlines(QtWidgets.QProxyStyle):
-    """For menu bars: their keys are found without."""
+    """A style for menu bars without underlined letters."""
 
     def styleHint(self, hint: Any, option: Any = None, widget: Any = None, returned: Any = None) -> int:
         if hint == QtWidgets.QStyle.StyleHint.SH_UnderlineShortcut:
@@ -131,7 +131,7 @@ class Menus:
         self._fill(about, ["keys", "guide", None, "about"])
 
     def allow(self, has_mesh: bool) -> None:
-        """How fields are shown can be chosen while there are some; menus without any use are not there before."""
+        """Enable the menus that need a mesh; without one, those of panels and tools are hidden."""
         for menu in self._of_meshes:
             menu.menuAction().setVisible(has_mesh)
         for menu in (self.isolines, self.colours, self.range, self.shading, self.up, self.repairs):

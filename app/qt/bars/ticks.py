@@ -12,7 +12,7 @@ from .menus import Menus
 from .tool_bar import ToolBar
 
 RANGE_NAMES = {"own": "Own", "shared": "Shared", "fraction": "Fraction", "typed": "Typed"}
-"""For the button: how the entries of the menu begin."""
+"""The first words of the menu's entries, for the button."""
 
 
 class Ticks:

@@ -47,13 +47,13 @@ class ToolButton(BareButton):
         self.update()
 
     def show_detail(self, detail: int) -> None:
-        """FULL, VALUES or ICONS."""
+        """Show as much as FULL, VALUES or ICONS says."""
         if detail != self._detail:
             self._detail = detail
             self._refit()
 
     def width_with(self, detail: int) -> int:
-        """How wide it is with so much written."""
+        """Return the width of the button at a level of detail."""
         if detail not in self._widths:
             metrics = QtGui.QFontMetrics(self._font)
             words = sum(GAP + metrics.horizontalAdvance(text) for text, _ in self._texts(detail))

@@ -44,7 +44,7 @@ class PanelTable(QtWidgets.QTableWidget):
         self.horizontalHeader().setMinimumSectionSize(1)
 
     def make_cells(self, rows: int, columns: int) -> None:
-        """Make empty cells, so many across and down."""
+        """Make a grid of empty cells."""
         self.setRowCount(rows)
         self.setColumnCount(columns)
         for row in range(rows):
@@ -124,7 +124,7 @@ class RowList(QtWidgets.QVBoxLayout):
             gone.deleteLater()
 
     def beside(self, word: str, by: int) -> str:
-        """Return the word of the row so many below, "" for none."""
+        """Return the word of the row that is `by` rows below, "" for none."""
         words = list(self.rows)
         place = words.index(word) + by
         return words[place] if 0 <= place < len(words) else ""

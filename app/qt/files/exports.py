@@ -208,7 +208,7 @@ class ExportBadge(QtWidgets.QWidget):
         return QtCore.QSize(0, 22)  # rather cut off than a wider window
 
     def open_menu(self) -> None:
-        """Return the running exports, each with an entry that cancels it."""
+        """List the running exports, each as an entry that cancels it."""
         self._list()
         height = self.menu.sizeHint().height()
         self.menu.popup(self.mapToGlobal(QtCore.QPoint(0, -height - 2)))

@@ -97,7 +97,7 @@ class JobDialog(QtWidgets.QDialog):
             self.form.add(in_row(self.kinds, *self.beside_kinds(), None, spacing=10))
 
     def beside_kinds(self) -> list[QtWidgets.QWidget]:
-        """Return the widget beside the formats."""
+        """Return the widgets beside the formats."""
         return []
 
     def check(self) -> None:

@@ -11,7 +11,7 @@ from ...scene.style import STYLES, Colour, Style, style_of
 from .theme import Theme
 
 STYLE_NAMES = {"paper": "White ground", "lines": "Lines only", "dark": "Dark ground", "cover": "Cover"}
-"""For the user; of a style without one, its word."""
+"""The names of styles for the user; others are shown by their words."""
 
 UNIFORM = "uniform"
 """The style that differs from "paper" in nothing but its map, which has this name, too; it is offered as that map."""

@@ -22,7 +22,7 @@ class Desktop(QtCore.QObject):
         self._is_asked = False
 
     def theme(self) -> Theme:
-        """Return "light" or "dark"; the first call starts watching."""
+        """Return the theme of the desktop; the first call starts watching it."""
         if QtWidgets.QApplication.instance() is None:
             return LIGHT
         if not self._is_asked:

@@ -36,7 +36,7 @@ class Look(QtCore.QObject):
         self._become(THEMES.get(word) or DESKTOP.theme(), self.scale)
 
     def enlarge(self, scale: float) -> None:
-        """The font size as a multiple of the usual one."""
+        """Set the font size as a multiple of the usual one."""
         self._become(self.theme, self._usual * scale)
 
     def fit_to(self, dots_per_inch: float) -> None:

@@ -10,7 +10,7 @@ from ...drawing.painters.qt import paint, rgba_of
 from ...drawing.shapes import Pen, Point, Shape, Text, disc
 from ...scene.style import PINS
 from ..look.look import LOOK
-from .mark_shapes import WHITE, point_of
+from .overlay import WHITE, point_of
 
 RADIUS = 8.5
 """Radius of a badge in logical pixels: as large as the head of a pin."""

@@ -35,7 +35,7 @@ MOST_LABELS = 400
 """Labels that a legend may name."""
 
 TOOLTIP_LINES = 30
-"""Of a legend, before there is another column."""
+"""Lines of a legend in a column of the tool tip."""
 
 SWATCH_SIZE, ENTRY_GAP = 9.0, 14.0
 """Logical pixels of a colour in a legend, and between two entries."""

@@ -33,7 +33,7 @@ SIDE_BY_SIDE = 3
 """Panels in a row at most, but for those of two meshes that correspond; more stand in rows as even as can be."""
 
 LEAST_WIDTH, LEAST_HEIGHT = 280, 220
-"""Of a panel, in logical pixels; where there is less room panels stand below each other, and the grid is scrolled."""
+"""Least size of a panel in logical pixels; with less room, panels stand below each other and the grid is scrolled."""
 
 LEAST_IN_ROW = 180
 """The same width where panels that belong together stand in a row: before, after, difference."""

@@ -16,7 +16,7 @@ from .motion_state import MotionState
 from .panel import DistancePanel
 
 NOTHING = Answer(label="")
-"""Of a panel that has no answer yet."""
+"""The answer of a panel that has none yet."""
 
 SELECTED_MS = 600
 """After a selection has changed, until large surfaces are drawn with it in full; the next stroke may begin before."""

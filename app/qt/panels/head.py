@@ -31,13 +31,13 @@ SLIDERS_FROM, ALL_FROM, FIRST_FROM = 440, 300, 200
 MARGIN, BETWEEN = 8, 4
 WARNING_ROOM = 22
 LETTER_SIDE, LETTER_ROOM = 18, 24
-"""Of the badge with the letter of the surface, and with what is beside it."""
+"""Side of the badge with the letter of the surface, and its room with the space beside it."""
 
 EXACT = "exact"
-"""Of quantities that leave no eigenpair out."""
+"""The method of quantities that leave out no eigenpair."""
 
 DOT_ROOM, DOT = 13, 4.0
-"""For the dot of a curve, and its radius."""
+"""Room for the dot of a curve, and its radius."""
 
 
 class PanelHead(QtWidgets.QWidget):

@@ -9,9 +9,8 @@ from qtpy import QtCore, QtGui
 from bihdist_core.arrays import AnyArray, FloatArray
 
 from ...drawing.axes import axes_shapes, middle
-from ...drawing.glyphs import SOURCE
+from ...drawing.glyphs import REACH, SOURCE, ring_shapes
 from ...drawing.painters.qt import box_of, paint, rectangle, rgba_of
-from ...drawing.pointer import REACH, ring_shapes
 from ...drawing.scale_bar import corner_of_bar, scale_bar_shapes
 from ...drawing.shapes import Box, Path, Shape, polyline
 from ...marks.primitives import LegendRow, cut_away_words
@@ -20,8 +19,7 @@ from ...scene.lines_of_sight import pixels_in
 from ..look.look import LOOK
 from . import overlay
 from .line_marks import LineMarks, pen_of
-from .mark_shapes import point_of, text_shapes
-from .overlay import ROW, Pointed
+from .overlay import ROW, Pointed, point_of, text_shapes
 from .point_marks import PointMarks
 
 if TYPE_CHECKING:

@@ -222,7 +222,7 @@ class FixedWord(QtWidgets.QLabel):
 
 
 Control = ChoiceControl | NumberControl | FixedWord
-"""What stands after the name; its height is that of a flat button."""
+"""A control after the name in a panel's head, as high as a flat button."""
 
 
 def parameter_control(parent: QtWidgets.QWidget, parameter: Parameter, sign: str, of_what: str) -> Control:

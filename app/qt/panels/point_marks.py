@@ -13,7 +13,7 @@ from ...marks.primitives import PointMark
 from ...scene.clipping import is_kept
 from ...scene.picking import pixel_of
 from . import overlay
-from .mark_shapes import MarkText, box_of_glyph, covers, mark_shapes, point_of
+from .overlay import MarkText, box_of_glyph, covers, mark_shapes, point_of
 
 if TYPE_CHECKING:
     from .view import View

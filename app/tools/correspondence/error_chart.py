@@ -35,7 +35,7 @@ class MapCurve:
 
 
 class ErrorChart(CurveChart):
-    """The line follows the pointer to a threshold, `at`."""
+    """The error curves of maps, with a line at the threshold under the pointer, `at`."""
 
     LEFT, RIGHT, TOP, BOTTOM = 46.0, 14.0, 8.0, 46.0
     HEIGHT = 208.0

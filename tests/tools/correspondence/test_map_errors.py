@@ -358,12 +358,12 @@ def test_a_session_of_it_is_the_same_again_and_drawn(two, tmp_path, screen):
 
 
 def test_the_curves_are_saved_as_numbers_and_as_a_figure(two, tmp_path, monkeypatch):
-    import app.tools.correspondence.map_truth as map_truth
+    import app.tools.correspondence.error_section as errors
     from app.qt.files.saving import written
 
     s = two
     monkeypatch.setattr(
-        map_truth, "save", lambda window, title, name, formats, write: written(window, str(tmp_path / "e.csv"), write)
+        errors, "save", lambda window, title, name, formats, write: written(window, str(tmp_path / "e.csv"), write)
     )
     section(s).truth.save_numbers()
     assert (tmp_path / "e.csv").read_text().startswith("error,Biharmonic,Geodesic\n")

@@ -20,7 +20,7 @@ from tests.shapes import bumpy
 pytest.importorskip("qtpy")
 from qtpy import QtCore, QtTest
 
-from app.drawing.labels import label_boxes
+from app.drawing.glyphs import label_boxes
 from app.drawing.shapes import Box
 from app.tools.interpolation.part import Anchors
 from tests.qt.parts import parts

@@ -124,7 +124,7 @@ def test_a_drop_that_is_clicked_selects_its_row(loaded):
 
 def test_a_drop_hangs_down_where_the_view_ends_above_it():
 
-    from app.qt.panels.mark_shapes import RIMS, box_of_glyph
+    from app.qt.panels.overlay import RIMS, box_of_glyph
 
     rise, head = PIN.rise * PIN.pixels, PIN.pixels
     for y in (0.0, rise, rise + head + RIMS - 1):
