@@ -34,6 +34,9 @@ class SolidBoundary(Surface):
 
     tetrahedra: IntArray
 
+    def _without_distances(self, vertex: int) -> str:
+        return f"vertex {vertex} is not on the boundary; only commands without a picture start distances within."
+
 
 class TetrahedralMesh(Nodes):
     """A mesh of tetrahedra, checked once and never changed.

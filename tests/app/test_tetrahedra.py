@@ -64,6 +64,12 @@ def test_a_figure_of_a_solid_from_python_is_drawn_again_from_its_archive(solid, 
     assert np.array_equal(again.pixels, drawn.pixels)
 
 
+def test_sources_of_pictures_are_on_the_boundary(solid, path, tmp_path, capsys):
+    within = np.setdiff1d(np.arange(len(solid.vertices)), solid.shape.faces)[0]
+    said = refused(capsys, "figure", path, "--sources", str(within), "-o", tmp_path / "a.png")
+    assert f"vertex {within} is not on the boundary; only commands without a picture" in said
+
+
 def test_a_solid_is_not_warned_of_what_matters_on_surfaces_alone():
     x = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1], [1, 0, 0.001], [0, -1, 1], [9, 9, 9]]
     both = TetrahedralMesh(x, [[0, 1, 2, 3], [0, 3, 5, 4]], "two")  # with an edge of four faces
