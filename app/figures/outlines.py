@@ -125,15 +125,7 @@ def _lines(nodes: AnyArray, places: FloatArray, drawn: AnyArray) -> list[Line]:
     if not len(segments):
         return []
     segments = segments[_long_enough(segments, places)]
-    count = np.bincount(segments.ravel())
-    traced = [(places[chain], closed, count[chain[[0, -1]]]) for chain, closed in chains(segments)]
-    return [(points, closed) for points, closed, ends in traced if closed or not _is_spur(points, ends)]
-
-
-def _is_spur(points: FloatArray, ends: IntArray) -> bool:
-    """Return whether a line is a tick that leaves others, from the number of lines (2,) that meet at its ends."""
-    length = float(np.linalg.norm(np.diff(points, axis=0), axis=1).sum())
-    return bool(length < BRIDGED and ends.min() == 1 and ends.max() > 2)
+    return [(places[chain], closed) for chain, closed in chains(segments)]
 
 
 def _bridged(drawn: AnyArray, length: AnyArray) -> AnyArray:

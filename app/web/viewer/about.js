@@ -20,7 +20,8 @@ function embedCode({ embed }) {
 export function aboutBox(scene, hasAddress) {
   const { mesh, panels, areas, notes, credit, version } = scene;
   const doi = element("a", { href: `https://doi.org/${DOI}`, target: "_blank", rel: "noopener", text: `doi:${DOI}` });
-  const kept = mesh.bits === "float32" ? "single precision" : `${mesh.bits} bits of each coordinate`;
+  const coordinates = mesh.bits === "float32" ? "single precision" : `${mesh.bits} bits of each coordinate`;
+  const kept = coordinates + (mesh.operator ? ", the operator in single precision" : "");
   const differs = Object.entries(mesh.differs ?? {}).map(([name, x]) => `${name} ${written(x)}`);
   const compared = `Differs from the original, from ${mesh.sources} sources, of the maximum`;
   return dialog(
