@@ -121,8 +121,7 @@ class StatusBar(QtWidgets.QStatusBar):
         surface: Surface | None = None,
         letter: str = "",
     ) -> None:
-        """Show the vertex of a surface under the pointer and its position, with the letter of the surface where there are
-        two."""
+        """Show the vertex of a surface under the pointer and its position, with the surface's letter if there are two."""
         name, place = "", ""
         if vertex is not None and position is not None and surface is not None:
             name = f"{surface.nouns[0]} {vertex}" + (f" on {letter}" if letter else "")
