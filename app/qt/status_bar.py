@@ -121,7 +121,7 @@ class StatusBar(QtWidgets.QStatusBar):
         surface: Surface | None = None,
         letter: str = "",
     ) -> None:
-        """Show the vertex of a surface under the pointer and its position, with the surface's letter if there are two."""
+        """Show the vertex of a surface under the pointer and its position, with the letter of one of two surfaces."""
         name, place = "", ""
         if vertex is not None and position is not None and surface is not None:
             name = f"{surface.nouns[0]} {vertex}" + (f" on {letter}" if letter else "")
