@@ -151,6 +151,8 @@ def _of_matrix(matrix: sp.coo_matrix, path: Path, first: int) -> Edges:
 
 def _read_metis(path: Path) -> Edges:
     lines = [line.split() for line in _COMMENT.sub("", file_text(path, "graph")).split("\n")]
+    if not any(lines):
+        raise ParameterError(f"{path} has no edge.")
     try:
         n, count, *form = map(int, lines[0])
         kind = f"{form[0] if form else 0:03d}"
@@ -162,8 +164,13 @@ def _read_metis(path: Path) -> Edges:
     except (ValueError, IndexError) as error:
         raise ParameterError(f"{path} is not a graph of METIS: {error}") from None
     i = np.repeat(np.arange(n), [len(row) // step for row in rows] + [0] * (n - len(rows)))
-    if len(j) != 2 * count or not ((j >= 0) & (j < n)).all():
-        raise ParameterError(f"{path} says that it has {n:,} nodes and {count:,} edges, and lists {len(j) / 2:,g}.")
+    wrong = j[(j < 0) | (j >= n)]
+    if len(wrong):
+        raise ParameterError(f"{path}: an edge ends at node {wrong[0] + 1}; nodes are numbered from 1 to {n}.")
+    if len(j) != 2 * count:
+        raise ParameterError(
+            f"{path} says that it has {counted(n, 'node')} and {counted(count, 'edge')}, and lists {len(j) / 2:,g}."
+        )
     return range(1, n + 1), i, j, weight
 
 

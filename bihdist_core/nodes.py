@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from functools import cached_property
+from typing import ClassVar
 
 import numpy as np
 import numpy.typing as npt
@@ -30,6 +31,8 @@ class Nodes(Surface):
     component_of_vertex : (n,) ndarray
         The component of each, the largest first; -1 for one that is joined to no other.
     """
+
+    nouns: ClassVar[tuple[str, str]] = ("node", "nodes")
 
     faces: IntArray = field(default_factory=lambda: np.empty((0, 3), np.int64))
     component_of_vertex: IntArray = field(default_factory=lambda: np.empty(0, np.int64))

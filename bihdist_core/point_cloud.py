@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from functools import cached_property
+from typing import ClassVar
 
 import numpy as np
 import numpy.typing as npt
@@ -73,6 +74,8 @@ class PointCloud(Nodes):
     0.51
     """
 
+    nouns: ClassVar[tuple[str, str]] = ("point", "points")
+
     matrices: Matrices
     _triangles: IntArray
 
@@ -85,7 +88,7 @@ class PointCloud(Nodes):
     ) -> None:
         x = checked_vertices(points, name)
         used = np.logical_not(np.isnan(x).any(axis=1))
-        told = [counted(int((~used).sum()), "point without coordinates (NaN)", "points without coordinates (NaN)")]
+        told = [counted(int((~used).sum()), "point without coordinates", "points without coordinates")]
         used[np.asarray(left_out, np.int64)] = False
         ids = np.flatnonzero(used)
         if len(ids):
@@ -93,7 +96,9 @@ class PointCloud(Nodes):
             ids = ids[np.unique(merged(x[ids])[1], return_index=True)[1]]
         told += [counted(int(used.sum()) - len(ids), "point that repeats another", "points that repeat others")]
         if len(ids) < FEWEST:
-            raise MeshError(f"{name} has {counted(len(ids), 'point')} in different places; a surface needs {FEWEST}.")
+            raise MeshError(
+                f"{name} has {counted(len(ids), 'point')} in different places; a point cloud needs {FEWEST}."
+            )
         if not np.isfinite(x).all():
             k, axis = np.argwhere(~np.isfinite(x))[0]
             raise MeshError(f"{name}: point {k} has the coordinate {x[k, axis]:g}; all must be finite numbers.")

@@ -66,6 +66,8 @@ class Surface:
     """
 
     dimension: ClassVar[int] = 2
+    nouns: ClassVar[tuple[str, str]] = ("vertex", "vertices")
+    """What one of `vertices` is called, and several."""
 
     vertices: FloatArray
     faces: IntArray
@@ -227,7 +229,7 @@ class Surface:
                 f"{self.name}: {vertex!r} is not a vertex id; ids are whole numbers from 0 to {n - 1}."
             ) from None
         if not 0 <= vertex < n:
-            raise VertexError(f"{self.name} has no vertex {vertex}; ids run from 0 to {n - 1}.")
+            raise VertexError(f"{self.name} has no {self.nouns[0]} {vertex}; ids run from 0 to {n - 1}.")
         if self.component_of_vertex[vertex] < 0:
             raise VertexError(f"{self.name}: {self._without_distances(vertex)}")
         return vertex
@@ -553,7 +555,7 @@ class Surface:
         ids = np.flatnonzero(found) if found.dtype.kind == "b" else found.astype(np.int64)
         wrong = ids[(ids < 0) | (ids >= n)]
         if len(wrong):
-            raise VertexError(f"{self.name} has no vertex {wrong[0]}; ids run from 0 to {n - 1}.")
+            raise VertexError(f"{self.name} has no {self.nouns[0]} {wrong[0]}; ids run from 0 to {n - 1}.")
         chosen = np.zeros(n, bool)
         chosen[ids] = True
         return chosen

@@ -35,7 +35,7 @@ class SolidBoundary(Surface):
     tetrahedra: IntArray
 
     def _without_distances(self, vertex: int) -> str:
-        return f"vertex {vertex} is not on the boundary; only commands without a picture start distances within."
+        return f"vertex {vertex} is inside, and pictures take sources on the boundary only; `bihdist field` takes any."
 
 
 class TetrahedralMesh(Nodes):
@@ -82,6 +82,7 @@ class TetrahedralMesh(Nodes):
     """
 
     dimension: ClassVar[int] = 3
+    nouns: ClassVar[tuple[str, str]] = Surface.nouns
 
     tetrahedra: IntArray
     matrices: Matrices

@@ -190,7 +190,7 @@ def _one(options: argparse.Namespace) -> Facts:
     label = f"{it.answer.label}, {it.answer.unit}" if it.answer.unit == PERCENTAGE_POINTS else it.answer.label
     names = distinct([field_name(it.shows, [each] if it.shows.points else []) for each in it.sources])
     fields = dict(zip(names, it.field.T, strict=True))
-    size = f"{it.field.shape[0]:,} vertices"
+    size = counted(it.field.shape[0], *it.surface.nouns)
     size += f", {counted(it.field.shape[1], 'source')}" if it.shows.points else ""
     if extension in COLOURED_FORMATS and (len(fields) == 1 or asked or extension not in FIELD_FORMATS):
         if len(fields) > 1:

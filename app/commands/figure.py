@@ -262,7 +262,7 @@ def run(options: argparse.Namespace) -> Result:
     ordered = zip(figure.order, figure.panels, strict=True)
     shown = {recipe.document.panels[k].surface: drawn.surface for k, drawn in ordered}
     starts = list(dict.fromkeys(source_at(point.at, shown[point.surface]) for point in points))
-    what = ", source vertex " if all(isinstance(each, int) for each in starts) else ", source "
+    what = f", source {surface.nouns[0]} " if all(isinstance(each, int) for each in starts) else ", source "
     from_where = f"{what}{', '.join(map(short_words_of, starts))}" if starts else ""
     print(f"{options.output}: {described(figure, options.output)}{from_where}")
     ids_files = write_ids_of(recipe.document, options.output)

@@ -59,6 +59,8 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> Result:
     """Print what the graph is, and write the distances that are asked for."""
+    from scipy.sparse.csgraph import connected_components
+
     from bihdist_core import biharmonic_index, kirchhoff_index, read_graph
     from bihdist_core.distances.answers import Distances
     from bihdist_core.file_output import check_outputs
@@ -75,9 +77,10 @@ def run(options: argparse.Namespace) -> Result:
     with progress_line() as progress:
         laplacian = graph.laplacian()
         size = f"{counted(len(graph.nodes), 'node')}, {counted(graph.n_edges, 'edge')}"
-        parts = counted(laplacian.surface.n_components, "component")
+        n_components = int(connected_components(graph.weights)[0])  # with nodes that are joined to no other
+        parts = counted(n_components, "component")
         facts: Facts = {"n_nodes": len(graph.nodes), "n_edges": graph.n_edges}
-        facts |= {"n_components": laplacian.surface.n_components, "outputs": [options.output] if options.output else []}
+        facts |= {"n_components": n_components, "outputs": [options.output] if options.output else []}
         facts["kirchhoff_index"] = kirchhoff_index(laplacian, progress)
         facts["biharmonic_index"] = biharmonic_index(laplacian, progress)
         distances = Distances(laplacian)
@@ -140,9 +143,11 @@ def _pairs(text: str) -> list[list[str]]:
 
 def _number(graph: "Graph", word: str) -> int:
     """Return the row of a node by its name as a word."""
-    if graph.nodes and isinstance(graph.nodes[0], int) and word.strip().lstrip("-").isdigit():
-        return graph.number(int(word))
-    return graph.number(word)
+    is_whole = graph.nodes and isinstance(graph.nodes[0], int) and word.strip().lstrip("-").isdigit()
+    number = graph.number(int(word) if is_whole else word)
+    if not graph.weights[[number]].nnz:
+        raise ParameterError(f"{graph.name}: node {word} is joined to no other, so no distance is defined from it.")
+    return number
 
 
 def _write(output: str | None, header: list[str], rows: list[list[object]]) -> None:

@@ -29,8 +29,10 @@ COUNTS = {
 """Attributes of a surface, and the words for them."""
 ON_POINTS = {"vertices": "points", "vertices without a face": "points left out", "mean edge length": "mean spacing"}
 """What rows are called where there are points only."""
+OF_SOLIDS = {"faces": "tetrahedra", "vertices without a face": "unused vertices", "area": "area of the boundary"}
+"""What rows are called where there are tetrahedra."""
 OF_FACES = ("faces", "boundary loops", "genus", "non-manifold edges", "non-manifold vertices", "degenerate faces")
-"""Rows that are left out there."""
+"""Rows that are left out where there are no faces."""
 SENTENCES = ("facts", "repairs", "warnings")
 
 WORDS = "describe a mesh file, and what would be repaired"
@@ -67,6 +69,7 @@ def run(options: argparse.Namespace) -> Result:
 
 def _described(mesh: str, options: argparse.Namespace, solver: dict[str, str]) -> Facts:
     """Print what is known of a mesh, and give it in plain values."""
+    from bihdist_core import TetrahedralMesh
     from bihdist_core.analysis.surface_notes import surface_notes
 
     from ..session.repaired_surface import read_repaired
@@ -81,6 +84,8 @@ def _described(mesh: str, options: argparse.Namespace, solver: dict[str, str]) -
         **facts_of(s, "mean_edge_length", "area", "bounds", "is_manifold"),
         **facts_of(notes, *SENTENCES),
     }
+    solid = s if isinstance(s, TetrahedralMesh) else None
+    facts |= {"n_tetrahedra": len(solid.tetrahedra), "volume": solid.volume} if solid else {}
     rows = {
         **({"mesh": s.name} if len(options.meshes) > 1 else {}),
         **{words: facts[name] for name, words in COUNTS.items()},
@@ -89,11 +94,14 @@ def _described(mesh: str, options: argparse.Namespace, solver: dict[str, str]) -
         "degenerate faces": len(s.degenerate_faces),
         "mean edge length": f"{s.mean_edge_length:.6g}",
         "area": f"{s.area:.6g}",
+        **({"faces": len(solid.tetrahedra), "volume": f"{solid.volume:.6g}"} if solid else {}),
         **{name: "; ".join(facts[name]) or "none" for name in SENTENCES},
         **solver,
     }
     if not len(s.faces):
-        rows = {ON_POINTS.get(name, name): value for name, value in rows.items() if name not in OF_FACES}
+        names = OF_SOLIDS if solid else ON_POINTS
+        renamed = {names.get(name, name): value for name, value in rows.items()}
+        rows = {name: value for name, value in renamed.items() if name not in OF_FACES}
     if options.accuracy:
         facts["distances"] = _accuracies(s, options.areas or AREAS[0], repairs.operator)
         rows |= {each["label"]: each["failure"] or each["accuracy_text"] for each in facts["distances"]}

@@ -148,7 +148,7 @@ class Gestures(QtCore.QObject):
         widget, surface = self._grid.panel(panel), context.session.mesh(panel).surface
         context.pointed.emit(vertex, widget.surface)
         position = None if vertex is None else surface.vertices[vertex]
-        context.status.show_place(vertex, position, surface.mean_edge_length, widget.head.letter)
+        context.status.show_place(vertex, position, surface, widget.head.letter)
         gesture, snapping = self._on(panel), context[Snapping]
         at, was = (None if each is None else snapping.at(panel, each) for each in (hit, last))
         is_elsewhere = last is None or panel != last_in or at != was
@@ -206,7 +206,8 @@ class Gestures(QtCore.QObject):
         menu.addAction("Centre view here\tC", lambda: view.centre(hit.position))
         menu.addAction("Zoom in here\tZ", lambda: self._zoom_to(panel, hit))
         menu.addSeparator()
-        menu.addAction(f"Copy vertex id {vertex}", lambda: _copy(str(vertex)))
+        noun = context.session.mesh(panel).surface.nouns[0]
+        menu.addAction(f"Copy {noun} id {vertex}", lambda: _copy(str(vertex)))
         menu.addAction("Copy position", lambda: _copy(" ".join(map(repr, self._place(panel, vertex)))))
         menu.addAction("Copy values", lambda: _copy(self._values(panel, vertex)))
 
@@ -216,10 +217,11 @@ class Gestures(QtCore.QObject):
 
     def _values(self, id: int, vertex: int) -> str:
         """Return the values of all panels of the same surface at a vertex, a line each."""
-        place = coordinates(self._place(id, vertex), self._context.session.mesh(id).surface.mean_edge_length)
+        surface = self._context.session.mesh(id).surface
+        place = coordinates(self._place(id, vertex), surface.mean_edge_length)
         name = self._grid.panel(id).surface
         lines = [panel.words_at(vertex) for panel in self._grid.panels if panel.surface == name]
-        return "\n".join([f"vertex {vertex} at {place}", *lines])
+        return "\n".join([f"{surface.nouns[0]} {vertex} at {place}", *lines])
 
 
 def _copy(text: str) -> None:

@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 
 from qtpy import QtCore, QtGui, QtWidgets
 
-from bihdist_core import PointCloud, Surface
+from bihdist_core import Surface
 from bihdist_core.analysis.surface_notes import surface_notes
 from bihdist_core.counts import counted
 from bihdist_core.distances.answers import Answer
@@ -115,13 +115,19 @@ class StatusBar(QtWidgets.QStatusBar):
         self.marks.show_words(", ".join(words), "click for the list (A)")
 
     def show_place(
-        self, vertex: int | None, position: Sequence[float] | None = None, edge: float = 0.0, letter: str = ""
+        self,
+        vertex: int | None,
+        position: Sequence[float] | None = None,
+        surface: Surface | None = None,
+        letter: str = "",
     ) -> None:
-        """Show the vertex under the pointer and its position among mean edges of this length, with the letter of its
-        surface where there are two."""
-        where = f" on {letter}" if letter else ""
-        self.vertex.show_text("" if vertex is None else f"vertex {vertex}{where}")
-        self.place.show_text("" if position is None else coordinates(position, edge))
+        """Show the vertex of a surface under the pointer and its position, with the letter of one of two surfaces."""
+        name, place = "", ""
+        if vertex is not None and position is not None and surface is not None:
+            name = f"{surface.nouns[0]} {vertex}" + (f" on {letter}" if letter else "")
+            place = coordinates(position, surface.mean_edge_length)
+        self.vertex.show_text(name)
+        self.place.show_text(place)
 
     def say(self, text: str, holds: Callable[[], bool] | None = None) -> None:
         """Show a message for a while, but only as long as `holds()` after changes of the document."""
@@ -320,8 +326,7 @@ class ListBadge(StatusBadge):
 
 
 def _size(surface: Surface) -> str:
-    of_points = isinstance(surface, PointCloud)
-    return counted(len(surface.vertices), *(("point",) if of_points else ("vertex", "vertices")))
+    return counted(len(surface.vertices), *surface.nouns)
 
 
 def unseen(recipe: Recipe, style: Style) -> list[str]:

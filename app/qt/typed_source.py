@@ -50,10 +50,10 @@ class SourceBox(TextBox):
         self.textEdited.connect(self.forgive)
         self.show_source(None, 0)
 
-    def show_source(self, source: Source | None, count: int) -> None:
-        """Show the source, None if there is none, of a surface with `count` vertices."""
+    def show_source(self, source: Source | None, count: int, noun: str = "vertex") -> None:
+        """Show the source, None if there is none, of a surface with `count` vertices, each called by a noun."""
         words = "" if source is None else words_of(source)
-        self._source, self._count = source, count
+        self._source, self._count, self._noun = source, count, noun
         self.setEnabled(source is not None)
         self.setText(words)
         self.setCursorPosition(0)
@@ -117,7 +117,7 @@ class SourceBox(TextBox):
 
     def give_up(self) -> None:
         """Discard what was typed."""
-        self.show_source(self._source, self._count)
+        self.show_source(self._source, self._count, self._noun)
 
     def _choose(self) -> None:
         text = self.text().strip()
@@ -127,7 +127,7 @@ class SourceBox(TextBox):
         if re.fullmatch("[0-9]{1,3}(,[0-9]{3})+", text):
             text = text.replace(",", "")
         if not text or (text.isascii() and text.isdigit() and int(text) >= self._count):
-            self._refuse(f"No vertex {text[:20] or 'of no id'} here: 0 to {self._count - 1}")
+            self._refuse(f"No {self._noun} {text[:20] or 'of no id'} here: 0 to {self._count - 1}")
             return
         # The words of a curve, which has a file of its own, mean the one that is there.
         curves = [(words_of(member), member) for member in members_of(self._source) if isinstance(member, Curve)]
@@ -191,4 +191,4 @@ class TypedSource:
             self.box.show_source(None, 0)
         else:
             source = None if point is None else source_at(point.at, loaded.surface)
-            self.box.show_source(source, len(loaded.surface.vertices))
+            self.box.show_source(source, len(loaded.surface.vertices), loaded.surface.nouns[0])

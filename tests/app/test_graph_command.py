@@ -81,6 +81,13 @@ def test_what_cannot_be_is_refused(graph, words, message, capsys):
     assert message in refused(capsys, "graph", graph, *words)
 
 
+def test_a_node_without_edges_is_a_component_and_has_its_own_name_in_messages(tmp_path, capsys):
+    (tmp_path / "three.graph").write_text("3 1\n2\n1\n\n")
+    assert "3 nodes, 1 edge, 2 components" in ran(capsys, "graph", tmp_path / "three.graph").out
+    said = refused(capsys, "graph", tmp_path / "three.graph", "--pairs", "1:3")
+    assert "node 3 is joined to no other" in said
+
+
 def test_pairs_may_be_lines_of_a_file(graph, tmp_path, capsys):
     (tmp_path / "pairs.txt").write_text("Bern,Chur\nThun,Basel\n")
     said = ran(capsys, "graph", graph, "--pairs", f"@{tmp_path / 'pairs.txt'}").out

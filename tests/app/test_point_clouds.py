@@ -46,6 +46,13 @@ def test_field_pairs_and_info(cloud, capsys):
     assert "genus" not in said
 
 
+def test_points_are_called_points(cloud, capsys):
+    assert main(["field", "scan.xyz", "--sources", "3", "-o", "field.npy"]) == 0
+    assert "400 points, 1 source" in capsys.readouterr().out
+    assert main(["field", "scan.xyz", "--sources", "400", "-o", "field.npy"]) == 2
+    assert "scan.xyz has no point 400" in capsys.readouterr().err
+
+
 @pytest.mark.parametrize(
     ("command", "reason"),
     [

@@ -41,6 +41,13 @@ def test_fields_are_written_with_the_tetrahedra(solid, path, tmp_path, capsys):
     assert (tmp_path / "a.vtu").stat().st_size > solid.tetrahedra.nbytes
 
 
+def test_info_counts_tetrahedra_and_their_volume(solid, path, capsys):
+    said = ran(capsys, "info", path).out
+    for words, value in [("tetrahedra", f"{len(solid.tetrahedra):,}"), ("volume", f"{solid.volume:.6g}")]:
+        assert f"{words:<25} {value}\n" in said
+    assert "points" not in said
+
+
 def test_a_session_shows_the_boundary_with_distances_through_the_solid(desk, solid, path):
     d = desk([Spec.of("biharmonic"), Spec.of("geodesic")])
     session = d.loaded(path, source=5)
@@ -67,7 +74,7 @@ def test_a_figure_of_a_solid_from_python_is_drawn_again_from_its_archive(solid, 
 def test_sources_of_pictures_are_on_the_boundary(solid, path, tmp_path, capsys):
     within = np.setdiff1d(np.arange(len(solid.vertices)), solid.shape.faces)[0]
     said = refused(capsys, "figure", path, "--sources", str(within), "-o", tmp_path / "a.png")
-    assert f"vertex {within} is not on the boundary; only commands without a picture" in said
+    assert f"vertex {within} is inside, and pictures take sources on the boundary only" in said
 
 
 def test_a_solid_is_not_warned_of_what_matters_on_surfaces_alone():

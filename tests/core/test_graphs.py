@@ -99,6 +99,8 @@ def test_numbers_need_no_comma_and_loops_are_left_out(tmp_path):
         ("a.csv", "a,b\nc\n", "line 2: an edge has two nodes"),
         ("a.csv", "1,2,-1\n", "that of the edge from 1 to 2 is -1"),
         ("a.csv", "", "has no edge"),
+        ("a.graph", "", "has no edge"),
+        ("a.graph", "3 1\n2\n7\n\n", "an edge ends at node 7; nodes are numbered from 1 to 3"),
         ("a.graph", "3 2\n2\n1\n\n", "says that it has 3 nodes and 2 edges, and lists 1"),
         ("a.graphml", "<graphml><graph><edge source='x' target='y'/></graph></graphml>", "'x', which is no node"),
         ("a.mtx", "nothing", "cannot be read as Matrix Market"),

@@ -169,7 +169,7 @@ def test_points_that_repeat_others_or_have_no_place_keep_ids_and_have_no_distanc
     x, n = cloud.vertices, len(cloud.vertices)
     more = PointCloud(np.concatenate([x, x[:5], [[np.nan, 0, 0]]]), "more")
     assert more.facts == (
-        "1 point without coordinates (NaN) left out (NaN)",
+        "1 point without coordinates left out (NaN)",
         "5 points that repeat others left out (NaN)",
     )
     assert surface_notes(more).facts == more.facts

@@ -39,6 +39,13 @@ def test_a_click_puts_the_source_on_the_nearest_point(scan):
 
 def test_it_says_that_there_are_points(scan):
     assert scan.window.status.counts.text == "900 points  no faces"
+    view = scan.panels[0].view
+    vertex = view.pick(view.rect().center()).vertex
+    QtTest.QTest.mouseMove(view, scan.point_of(scan.panels[0], vertex))
+    scan.until(lambda: scan.window.status.vertex.text == f"point {vertex}")
+    parts(scan.window).typed_source.box.setText("900")
+    QtTest.QTest.keyClick(parts(scan.window).typed_source.box, QtCore.Qt.Key.Key_Return)
+    assert parts(scan.window).typed_source.box.wrong.text() == "No point 900 here: 0 to 899"
     assert [panel.shows.specs[0].word for panel in scan.document.panels] == ["biharmonic", "commute-time", "diffusion"]
 
 

@@ -316,7 +316,7 @@ class PinsDock(Instrument):
         for word in words:
             is_place = word.startswith("f")
             if not is_place and (not (word.isascii() and word.isdigit()) or int(word) >= len(surface.vertices)):
-                self._refuse(f"No vertex {word[:20]} here: 0 to {len(surface.vertices) - 1}")
+                self._refuse(f"No {surface.nouns[0]} {word[:20]} here: 0 to {len(surface.vertices) - 1}")
                 return
         try:
             places = [source_at(source_from_words(word), surface) for word in words]

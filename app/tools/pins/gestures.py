@@ -68,7 +68,8 @@ class PinGestures(Gesture):
         self._grid.marks.highlight(self.tool, tuple(chosen))
         if pin.point in chosen:
             where = self.document.point(pin.point).at
-            place = f"vertex {where}" if isinstance(where, int) else "in a face"
+            noun = self.context.session.mesh(panel).surface.nouns[0]
+            place = f"{noun} {where}" if isinstance(where, int) else "in a face"
             self.context.tell(f"{_name(pin, number).capitalize()}: {place}")
 
     def drag(self, panel: int, number: int, hit: Hit) -> None:

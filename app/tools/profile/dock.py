@@ -290,7 +290,7 @@ class ProfileDock(Instrument):
         vertex = int(place.corners[0, int(place.weights[0].argmax())])
         self._highlight_place(path, arc)
         surface = self.surface_of(self.surface)
-        status.show_place(vertex, place.values(surface.vertices)[0], surface.mean_edge_length)
+        status.show_place(vertex, place.values(surface.vertices)[0], surface)
         self.chart.show_at(arc, f"vertex {vertex}")
 
     def _highlight_place(self, path: SurfacePath, arc: float) -> None:

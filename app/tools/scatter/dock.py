@@ -293,7 +293,7 @@ class ScatterDock(Instrument):
         context.grid.pointing.show(panel, vertex)
         surface = context.session.mesh(panel).surface
         position = None if vertex is None else surface.vertices[vertex]
-        context.status.show_place(vertex, position, surface.mean_edge_length)
+        context.status.show_place(vertex, position, surface)
 
     # ------------------------------------------------------------------ what is saved
     def figure(self) -> "ScatterFigure":
