@@ -408,13 +408,16 @@ def quantity_name(shows: Quantity) -> str:
 def column_names(shown: Sequence[Quantity], are_short: bool = False) -> list[str]:
     """Return the names of quantities for the columns of a table.
 
-    Those that would be alike are written as they are typed. With `are_short`, for columns with little room, they are as
-    "Biharm." and "Biharm. − Geod.".
+    Different ones that would be alike are written as they are typed. With `are_short`, for columns with little room,
+    they are as "Biharm." and "Biharm. − Geod.".
     """
     names = [quantity_name(shows) for shows in shown]
     if are_short:
         names = [" − ".join(part.short_heading or quantity_name(part) for part in shows.parts) for shows in shown]
-    return [str(shows) if names.count(name) > 1 else name for shows, name in zip(shown, names, strict=True)]
+    typed = [str(shows) for shows in shown]
+    words = set(zip(names, typed, strict=True))
+    is_shared = {name: sum(name == other for other, _ in words) > 1 for name in names}
+    return [text if is_shared[name] else name for name, text in zip(names, typed, strict=True)]
 
 
 def own_fields(shows: Quantity) -> tuple[OwnField, ...]:

@@ -1,5 +1,6 @@
 """Pure edits of documents with a second mesh, and of how each mesh is seen."""
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 from bihdist_core.distances.distance_types import Spec
@@ -9,7 +10,7 @@ from bihdist_core.sources.source import Source
 from .camera import SecondMeshView, View, view_alike
 from .document import Document, MeshFile, Panel, Point, free_names
 from .edits import MOST_ADDED, add_panel, put_point, show_distances
-from .quantities import DistanceFrom, Quantity, own_fields
+from .quantities import DistanceFrom, Quantity, column_names, own_fields
 from .removal import without_surfaces
 
 MOST_SHOWN = 2
@@ -98,6 +99,12 @@ def letter_of(document: Document, panel: Panel) -> str:
     """ "A" for the first surface, "B" for the second; "" where there is but one."""
     names = [mesh.name for mesh in document.surfaces]
     return chr(ord("A") + names.index(panel.surface)) if len(names) > 1 else ""
+
+
+def panel_names(document: Document, panels: Sequence[Panel], are_short: bool = False) -> list[str]:
+    """Return the names of panels for the columns of a table, with the letters of their surfaces where there are two."""
+    names = column_names([panel.shows for panel in panels], are_short)
+    return [f"{letter_of(document, panel)} {name}".strip() for panel, name in zip(panels, names, strict=True)]
 
 
 def _view_of(document: Document, surface: str) -> SecondMeshView:

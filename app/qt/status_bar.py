@@ -44,13 +44,14 @@ class StatusBar(QtWidgets.QStatusBar):
         self.marks = StatusBadge("eye")
         self.marks.clicked.connect(lambda *_: self.marks_wanted.emit())
         self.time = Words("quiet", is_meant=True)
-        self.message = Words("quiet")
+        self.message = Words("quiet", is_meant=True)
         self.progress = Words("quiet", is_meant=True)
         self.vertex, self.place = Words("text", is_right=True), Words("text", is_right=True)
         self._row = QtWidgets.QWidget()
         left = self.counts, self.notes, self.accuracy, self.marks, self.time
         right = self.progress, self.vertex, self.place
         in_row(*left, (self.message, 1), *right, of=self._row, spacing=12, margins=(12, 0, 12, 0))
+        self._row.installEventFilter(self)
         self._row.setSizePolicy(QtWidgets.QSizePolicy.Policy.Ignored, QtWidgets.QSizePolicy.Policy.Fixed)
         self.addPermanentWidget(self._row, 1)
         self._vertices, self._faces = "", ""
@@ -107,7 +108,6 @@ class StatusBar(QtWidgets.QStatusBar):
     def show_time(self, text: str) -> None:
         """Show how long the last fields took, "" for nothing."""
         self.time.show_text(text)
-        self.time.updateGeometry()
 
     def show_marks(self, shown: int, hidden: int) -> None:
         """Show how many things are on the surface besides the source, and how many are hidden."""
@@ -154,7 +154,6 @@ class StatusBar(QtWidgets.QStatusBar):
     def show_progress(self, text: str) -> None:
         """Show work that is not a panel's."""
         self.progress.show_text(text)
-        self.progress.updateGeometry()
 
     # ------------------------------------------------------------------ how it fits
     def resizeEvent(self, event: QtGui.QResizeEvent) -> None:
@@ -162,7 +161,7 @@ class StatusBar(QtWidgets.QStatusBar):
         self._fit()
 
     def _fit(self) -> None:
-        """Hide the time, then the faces, then the message, then the position where there is no room."""
+        """Hide the time, then the faces, then the position where there is no room, and shorten the message last."""
         font = LOOK.font(12.5)
         self.setFixedHeight(round(HEIGHT * LOOK.scale))
         self._row.setFixedHeight(self.height() - 2)
@@ -175,9 +174,21 @@ class StatusBar(QtWidgets.QStatusBar):
         axes = zip([WIDEST_PLACE] * 3, *self._ends, strict=True)
         widths = [max(number_width(font, text) for text in texts) for texts in axes]
         self.place.fix(sum(widths) + 2 * number_width(font, "  ") + 2)
-        self.place.setVisible(width >= 640 * LOOK.scale)
         self.time.setVisible(width >= 1000 * LOOK.scale)
         self.progress.setMaximumWidth(width // 3)
+        self._fit_place()
+
+    def _fit_place(self) -> None:
+        layout = self._row.layout()
+        widgets = [layout.itemAt(k).widget() for k in range(layout.count())]
+        needed = [max(w.minimumWidth(), w.sizeHint().width()) for w in widgets if w is self.place or not w.isHidden()]
+        self.place.setVisible(sum(needed) + layout.spacing() * len(needed) + 12 <= self.width())
+
+    def eventFilter(self, watched: QtCore.QObject, event: QtCore.QEvent) -> bool:
+        """Make room for a message or a badge."""
+        if event.type() == QtCore.QEvent.Type.LayoutRequest:
+            self._fit_place()
+        return False
 
     def minimumSizeHint(self) -> QtCore.QSize:
         return QtCore.QSize(1, self.height())
@@ -201,6 +212,8 @@ class Words(QtWidgets.QWidget):
         if text != self.text:
             self.text = text
             self.setAccessibleName(text)
+            if self.sizePolicy().horizontalPolicy() == QtWidgets.QSizePolicy.Policy.Preferred:
+                self.updateGeometry()
             self.update()
 
     def fix(self, width: float) -> None:

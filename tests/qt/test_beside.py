@@ -88,6 +88,15 @@ def test_a_click_on_one_moves_only_its_source_and_a_pin_lies_on_its_surface(two)
     assert s.document.point("source 2").at == 7
 
 
+def test_the_table_of_quality_names_panels_of_two_meshes_by_their_letters(two):
+    parts(two.window).docks.toggle("quality")
+    two.until(lambda: two.session.is_complete)
+    dock = parts(two.window).docks._docks["quality"].content
+    names = [dock.table.horizontalHeaderItem(k).text() for k in range(dock.table.columnCount())]
+    assert names == ["A Geodesic", "B Geodesic"]
+    assert dock.text().startswith("\tA Geodesic\tB Geodesic\n")
+
+
 def test_linked_cameras_turn_by_the_same_rotation_each_about_its_own_shape(two):
     s = two
     before = seen(s)

@@ -5,7 +5,9 @@ from typing import Any
 
 from qtpy import QtCore, QtWidgets
 
-from ...document.quantities import Quantity, column_names, quantity_name
+from ...document.document import Document, Panel
+from ...document.quantities import quantity_name
+from ...document.second_mesh_edits import panel_names
 from ..look.form import in_column
 from ..look.look import LOOK
 
@@ -53,27 +55,27 @@ class PanelTable(QtWidgets.QTableWidget):
                 cell.setTextAlignment(QtCore.Qt.AlignmentFlag.AlignRight | QtCore.Qt.AlignmentFlag.AlignVCenter)
                 self.setItem(row, column, cell)
 
-    def fit(self, shown: Sequence[Quantity]) -> None:
-        """Name the columns by the quantities of their panels, and give all rows and columns the room that they need."""
+    def fit(self, document: Document, panels: Sequence[Panel]) -> None:
+        """Name the columns by their panels, and give all rows and columns the room that they need."""
         scale = LOOK.scale
         for row in range(self.rowCount()):
             self.setRowHeight(row, round(ROW_HEIGHT * scale))
         height = round(HEAD_HEIGHT * scale) + self.rowCount() * round(ROW_HEIGHT * scale) + 2
-        if self._show_columns(shown):
+        if self._show_columns(document, panels):
             height += self.horizontalScrollBar().sizeHint().height()
         self.setFixedHeight(height)
 
-    def _show_columns(self, shown: Sequence[Quantity]) -> bool:
+    def _show_columns(self, document: Document, panels: Sequence[Panel]) -> bool:
         """Let each column be as wide as what is in it; return whether the table has to be scrolled.
 
         Names are short where the whole ones have no room; what is left over is spread over all columns.
         """
-        cells = [[self.item(row, k) for row in range(self.rowCount())] for k in range(len(shown))]
+        cells = [[self.item(row, k) for row in range(self.rowCount())] for k in range(len(panels))]
         in_cell, in_head = (each.fontMetrics().horizontalAdvance for each in (self, self.horizontalHeader()))
         wide = [max([in_cell(cell.text()) for cell in column if cell], default=0) for column in cells]
         room = self.width() - self.verticalHeader().width()
         for are_short in (False, True):
-            names = column_names(shown, are_short)
+            names = panel_names(document, panels, are_short)
             widths = [
                 max(self._least_width, text + CELL_PADS, in_head(name) + CELL_PADS)
                 for text, name in zip(wide, names, strict=True)
@@ -84,9 +86,9 @@ class PanelTable(QtWidgets.QTableWidget):
         for k, (name, width) in enumerate(zip(names, widths, strict=True)):
             item = QtWidgets.QTableWidgetItem(name)
             item.setTextAlignment(QtCore.Qt.AlignmentFlag.AlignRight | QtCore.Qt.AlignmentFlag.AlignVCenter)
-            item.setToolTip(quantity_name(shown[k]))
+            item.setToolTip(quantity_name(panels[k].shows))
             self.setHorizontalHeaderItem(k, item)
-            self.setColumnWidth(k, width + spare * (k + 1) // len(shown) - spare * k // len(shown))
+            self.setColumnWidth(k, width + spare * (k + 1) // len(panels) - spare * k // len(panels))
         return bool(sum(widths) > room)
 
 

@@ -217,7 +217,7 @@ class ExportDialog(LooksDialog):
         tip = "Copy the figure as an image"
         self.copy_picture = self.button("&Copy picture", tip, lambda: self._copy("picture"))
         put_icon(self.copy_picture, "copy")
-        self.copy_line = self.button("Copy as co&mmand or Python", "One line that makes this figure")
+        self.copy_line = self.button("Copy a&s command or Python", "One line that makes this figure")
         self.copy_line.setProperty("chevron", True)
         menu = QtWidgets.QMenu(self.copy_line)
         menu.addAction("As a command line", partial(self._copy, "command"))

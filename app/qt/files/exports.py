@@ -204,9 +204,6 @@ class ExportBadge(QtWidgets.QWidget):
         exports.changed.connect(self._show)
         self._show()
 
-    def minimumSizeHint(self) -> QtCore.QSize:
-        return QtCore.QSize(0, 22)  # rather cut off than a wider window
-
     def open_menu(self) -> None:
         """List the running exports, each as an entry that cancels it."""
         self._list()
@@ -262,9 +259,11 @@ class ExportBadge(QtWidgets.QWidget):
 def _summary(running: list[Export]) -> tuple[str, int]:
     """Return the text of the badge, and the percentage of its bar."""
     percent, first = int(100 * sum(export.fraction for export in running) / len(running)), running[0]
+    # A figure space for each missing digit, so that the bar stays where it is.
+    share = f"{percent:\u2007>2} %"
     if len(running) > 1:
-        return f"{len(running)} exports, {percent} %", percent
-    return f"{first.what}, cancelling…" if first.is_stopping else f"{first.what} {percent} %", percent
+        return f"{len(running)} exports, {share}", percent
+    return f"{first.what}, cancelling…" if first.is_stopping else f"{first.what} {share}", percent
 
 
 FORMATS = (".pdf", ".png", ".svg", ".eps")

@@ -6,7 +6,7 @@ from bihdist_core.analysis.triangle_samples import TRIANGLE_POINTS
 
 from ...document.document import Document
 from ...document.edits import mark_extrema
-from ...document.quantities import quantity_name
+from ...document.second_mesh_edits import panel_names
 from ...qt.context import Context
 from ...qt.docks.instrument import PAD, Instrument
 from ...qt.docks.plain import PanelTable, fill
@@ -106,7 +106,7 @@ class QualityDock(Instrument):
         """Return the table with tabs and all digits."""
         panels = self.document.panels
         found = [self.context[QualityFindings].found(panel.id) for panel in panels]
-        lines = [["", *(quantity_name(panel.shows) for panel in panels)]]
+        lines = [["", *panel_names(self.document, panels)]]
         for each in MEASURES:
             numbers = [each.with_all_digits(of) for of in found]
             failed = [self._failed(panel.id) for panel in panels]
@@ -132,7 +132,7 @@ class QualityDock(Instrument):
         names = self.table.verticalHeader()
         widest = max(QtGui.QFontMetrics(LOOK.font()).horizontalAdvance(measure.name) for measure in MEASURES)
         names.setFixedWidth(widest + PAD + round(NAME_PAD_PX * LOOK.scale))
-        self.table.fit([panel.shows for panel in self.document.panels if panel.id in self._columns])
+        self.table.fit(self.document, [panel for panel in self.document.panels if panel.id in self._columns])
 
     def resizeEvent(self, event: QtGui.QResizeEvent) -> None:
         super().resizeEvent(event)

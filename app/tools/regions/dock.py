@@ -324,7 +324,7 @@ class RegionsDock(Instrument):
 
     # ------------------------------------------------------------------ how it looks
     def _measure(self) -> None:
-        self.table.fit([panel.shows for _, panel in self._shown])
+        self.table.fit(self.document, [panel for _, panel in self._shown])
 
     def resizeEvent(self, event: QtGui.QResizeEvent) -> None:
         super().resizeEvent(event)

@@ -162,7 +162,7 @@ class ScatterDock(Instrument):
     @staticmethod
     def _name(document: Document, id: int) -> str:
         """Return the name of a panel, with its place where others have the same name."""
-        names = {panel.id: quantity_name(panel.shows) for panel in document.panels}
+        names = {panel.id: quantity_name(panel.shows) for panel in document.panels_of()}
         place = list(names).index(id) + 1
         return f"{names[id]} ({place})" if list(names.values()).count(names[id]) > 1 else names[id]
 
