@@ -11,7 +11,9 @@ import numpy.typing as npt
 from ..arrays import FloatArray, IntArray, real_numbers
 from ..errors import ParameterError
 from ..mesh_like import MeshLike
+from ..point_cloud import PointCloud
 from ..surface import Surface, with_faces
+from ..tetrahedra import TetrahedralMesh
 from .field_scatter import field_scatter
 from .linear_field import LinearField
 
@@ -160,7 +162,7 @@ class Agreement:
     spearman : float
         Rank correlation, from -1 to 1; NaN where a field is constant.
     by_area : float
-        Rank correlation with vertices weighted by area.
+        Rank correlation with vertices weighted by area, or by volume in tetrahedra.
     mean, largest : float
         Mean by area and largest value of the absolute difference; normalised fields were divided by their largest size
         first.
@@ -223,18 +225,21 @@ def field_agreement(surface: MeshLike, a: npt.ArrayLike, b: npt.ArrayLike, norma
     surface = Surface.of(surface)
     both = field_scatter(surface, a, b, normalised)
     f, g, ids = both.x, both.y, both.ids
-    weights = corner_areas(surface)[ids]
     apart = np.abs(f - g)
-    worst = int(apart.argmax())
-    orders, total = (_order(f), _order(g)), weights.sum()
-    difference = np.full(len(surface.vertices), np.nan)
-    difference[ids] = f - g
-    faces = LinearField.on(surface, difference)
+    worst, orders = int(apart.argmax()), (_order(f), _order(g))
+    if isinstance(surface, PointCloud | TetrahedralMesh):
+        weights = surface.matrices[1][ids]
+        mean = float(np.average(apart, weights=weights))
+    else:
+        weights, difference = corner_areas(surface)[ids], np.full(len(surface.vertices), np.nan)
+        difference[ids] = f - g
+        faces = LinearField.on(surface, difference)
+        mean = faces.mean_size() if faces.area > 0 else float("nan")
     return Agreement(
         count=len(ids),
         spearman=_correlation(*orders, np.ones(len(ids))),
-        by_area=_correlation(*orders, weights) if total > 0 else float("nan"),
-        mean=faces.mean_size() if faces.area > 0 else float("nan"),
+        by_area=_correlation(*orders, weights) if weights.sum() > 0 else float("nan"),
+        mean=mean,
         largest=float(apart[worst]),
         largest_at=int(ids[worst]),
     )

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from scipy.spatial import Delaunay
 from scipy.stats import spearmanr
 
 from bihdist_core import (
@@ -9,7 +10,9 @@ from bihdist_core import (
     GeodesicDistance,
     Laplacian,
     ParameterError,
+    PointCloud,
     Surface,
+    TetrahedralMesh,
     TruncatedBiharmonicDistance,
     VertexError,
     band,
@@ -149,6 +152,15 @@ def test_agreement_of_distances(rough, field):
     same = field_agreement(rough, field, 2 * field, normalised=True)
     assert (same.spearman, same.mean, same.largest) == pytest.approx((1, 0, 0), abs=1e-12)
     assert field_agreement(rough, field, 2 * field).largest == field.max()
+
+
+def test_points_and_tetrahedra_are_weighted_by_their_masses():
+    x = np.random.default_rng(1).normal(size=(60, 3))
+    for shape in (PointCloud(x / np.linalg.norm(x, axis=1)[:, None]), TetrahedralMesh(x, Delaunay(x).simplices)):
+        one, other, masses = x[:, 0], x[:, 0] + x[:, 1] ** 2, shape.matrices[1]
+        found = field_agreement(shape, one, other)
+        assert found.mean == pytest.approx((masses * x[:, 1] ** 2).sum() / masses.sum(), rel=1e-12)
+        assert found.by_area == rank_correlation(one, other, masses) != found.spearman
 
 
 def test_bad_input_is_refused(rough, field):

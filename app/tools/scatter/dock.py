@@ -222,6 +222,7 @@ class ScatterDock(Instrument):
 
     def _show_agreement(self, request: _Request, found: Agreement) -> None:
         self._found = found
+        noun, nouns = request.surface.nouns
         lines = [("rank correlation", number(found.spearman)), ("rank correlation by area", number(found.by_area))]
         if request.has_common_unit:
             across, up = (
@@ -232,9 +233,9 @@ class ScatterDock(Instrument):
             written = share if request.shares else number
             lines += [
                 ("mean deviation, by area", written(found.mean)),
-                (f"largest, at vertex {found.largest_at}", written(float(sign * found.largest), signed=True)),
+                (f"largest, at {noun} {found.largest_at}", written(float(sign * found.largest), signed=True)),
             ]
-        lines.append(("vertices", f"{found.count:,}"))
+        lines.append((nouns, f"{found.count:,}"))
         self.facts.show_facts(lines)
         self.chart.mark_largest(found.largest_at if request.has_common_unit else None)
 
