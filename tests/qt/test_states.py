@@ -95,7 +95,7 @@ def test_on_the_full_screen_of_a_talk_all_words_of_a_head_are_larger(window):
 def test_letters_keep_their_size_in_every_theme_and_all_grow_on_the_full_screen_of_a_talk(window):
     bar, box = window.window.menuBar(), parts(window.window).typed_source.box
     word = window.window.status.marks
-    wide = box.width()
+    wide, high = box.width(), box.height()
 
     def sizes():
         return {each.font().pixelSize() for each in (bar, box, word)}
@@ -111,6 +111,7 @@ def test_letters_keep_their_size_in_every_theme_and_all_grow_on_the_full_screen_
     finally:
         LOOK.enlarge(1.0)
     assert sizes() == {13}
+    assert (box.width(), box.height()) == (wide, high)
 
 
 def test_a_low_panel_says_what_it_waits_for_beside_its_shape(window):

@@ -214,6 +214,7 @@ class SourceControl(QtWidgets.QWidget):
         scale = LOOK.scale
         width, height = round(self.WIDTH * scale), round(self.HEIGHT * scale)
         self.setFixedSize(width, height)
+        self.box.setMinimumHeight(0)  # that of larger text stays until the style sheet is replaced
         self.box.setGeometry(0, 0, width, height)
         self.box.setTextMargins(self.MENU - 6, 0, self.LIVE - 4, 0)
         self.menu_button.setGeometry(1, 1, self.MENU, height - 2)

@@ -174,8 +174,8 @@ class ErrorSection(QtWidgets.QWidget):
         )
         self.mirror.clicked.connect(self._count_mirror)
         top = in_row(heading("Error"), None, self.truth.button)
-        bottom = in_row(self.full, self.save, None, self.mirror, spacing=8)
-        parts = top, self.chart, self.table, self.note, bottom
+        bottom = in_row(self.full, self.save, None, spacing=8)
+        parts = top, self.chart, self.table, self.note, self.mirror, bottom
         in_column(hairline(), in_column(*parts, spacing=8, margins=(PAD, 8, PAD, PAD)), of=self, spacing=0)
         self._worker = MapErrorWorker()
         self._background = context.background("map errors", self._worker.errors, self._take, self._refuse)

@@ -28,6 +28,7 @@ from tests.shapes import bumpy, grid
 pytest.importorskip("qtpy")
 from qtpy import QtCore, QtTest, QtWidgets
 
+from app.qt.docks.docks import WIDTH
 from app.tools.correspondence.maps import Maps
 from tests.qt.parts import parts
 
@@ -280,6 +281,7 @@ def test_the_full_map_is_shown_in_colours_and_saved(two, tmp_path):
     assert np.array_equal(s.panels[1].answer.leads_to, found)
     assert np.array_equal(s.panels[1].answer.colours, carried_back(position_colours(other), found))
     assert len(np.unique(s.pictures()[1].reshape(-1, 3), axis=0)) > 1000
+    assert section(s).minimumSizeHint().width() <= WIDTH, "no wider than its dock, with the button to save maps"
     section(s).save.menu().aboutToShow.emit()
     assert len(section(s).save.menu().actions()) == 2
     write_map(tmp_path / "map.txt", section(s)._full_maps()[BIHARMONIC])
