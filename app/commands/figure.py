@@ -262,7 +262,9 @@ def run(options: argparse.Namespace) -> Result:
     ordered = zip(figure.order, figure.panels, strict=True)
     shown = {recipe.document.panels[k].surface: drawn.surface for k, drawn in ordered}
     starts = list(dict.fromkeys(source_at(point.at, shown[point.surface]) for point in points))
-    what = f", source {surface.nouns[0]} " if all(isinstance(each, int) for each in starts) else ", source "
+    nouns = {drawn.surface.nouns[0] for drawn in figure.panels}
+    is_named = len(nouns) == 1 and all(isinstance(each, int) for each in starts)
+    what = f", source {nouns.pop()} " if is_named else ", source "
     from_where = f"{what}{', '.join(map(short_words_of, starts))}" if starts else ""
     print(f"{options.output}: {described(figure, options.output)}{from_where}")
     ids_files = write_ids_of(recipe.document, options.output)

@@ -128,7 +128,8 @@ def add_distance(parser: argparse.ArgumentParser, several: str = "", k: str = ""
     else:
         text = f"{words} (default: {'the --field, else ' if is_field else ''}biharmonic)"
         names = ("--distance", "--quantity") if is_field else ("--distance",)
-        parser.add_argument(*names, metavar="NAME", default=None if is_field else "biharmonic", help=text)
+        usual = None if is_field else "biharmonic"
+        parser.add_argument(*names, metavar="NAME", type=as_argument(_only_name), default=usual, help=text)
     for name, parameter in PARAMETERS.items():
         of = ", ".join(kind.word for kind in BUILT_IN if parameter in kind.parameters)
         also = f"{k}; or " if k and name == "k" else ""
@@ -320,6 +321,13 @@ def specs(options: argparse.Namespace, texts: Sequence[str], signatures: bool = 
     found = [kind.parse(text, **given_parameters(options)) for kind, text in zip(kinds, texts, strict=True)]
     check_parameters(options, found)
     return found
+
+
+def _only_name(text: str) -> str:
+    """Return the name of a distance; ParameterError for a list of several."""
+    if len(split_list(text)) > 1:
+        raise ParameterError(f"one distance at a time, not {text!r}; `bihdist batch` computes several")
+    return text
 
 
 def quantities(options: argparse.Namespace, texts: Sequence[str], fields: Sequence[str] = ()) -> list[Quantity]:

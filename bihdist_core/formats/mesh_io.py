@@ -97,7 +97,8 @@ def surface_in(content: bytes, name: str) -> Surface:
                 return PointCloud(polygons.vertices, name, facts=polygons.facts)
             if not len(polygons.sizes):
                 held = counted(len(polygons.vertices), "vertex", "vertices")
-                raise MeshError(f"{name} has {held} but no faces; a surface needs at least one triangle.")
+                of_points = ", ".join(form for form, each in FORMATS.items() if each.has_points)
+                raise MeshError(f"{name} has {held} but no faces; points without faces are read from {of_points}.")
             faces, left_out, divided = triangulated(polygons)
         repairs, facts = [*polygons.repairs, *left_out], [*polygons.facts, *divided]
         surface = Surface(polygons.vertices, faces, name=name, repairs=repairs, facts=facts)

@@ -29,7 +29,7 @@ _TYPES = {f"{sign}Int{8 * size}": f"{sign.lower() or 'i'}{size}" for sign in (""
 _TYPES |= {"Float32": "f4", "Float64": "f8"}
 _KINDS = {"Polys": "POLYGONS", "Strips": "TRIANGLE_STRIPS", "Lines": "LINES", "Verts": "VERTICES"}
 _GRID = {"Cells": "CELLS"}
-_CELL_TYPES = {3: 5, 4: 10}
+_CELL_TYPES = {1: 1, 3: 5, 4: 10}
 """Of triangles and tetrahedra, by their corners."""
 
 
@@ -278,7 +278,11 @@ def write_poly_data(
 
 
 def write_grid(file: BinaryIO, points: FloatArray, cells: IntArray, point_data: Mapping[str, FloatArray]) -> None:
-    """Write points (n, 3) and triangles (m, 3) or tetrahedra (m, 4) as an unstructured grid."""
+    """Write points (n, 3) and triangles (m, 3) or tetrahedra (m, 4) as an unstructured grid.
+
+    Where there are none, the points are cells, without which programs show nothing.
+    """
+    cells = cells if len(cells) else np.arange(len(points))[:, None]
     arrays, (corners, ends) = _Appended(), _flat(cells)
     types = np.full(len(cells), _CELL_TYPES[cells.shape[1]], np.uint8)
     parts = [

@@ -74,10 +74,10 @@ def test_what_needs_faces_is_refused(capsys, command, reason):
 
 
 def test_fields_of_points_in_files_of_other_programs(cloud):
-    for name in ("field.ply", "field.vtp", "field.glb", "field.obj"):
+    for name in ("field.ply", "field.vtp", "field.vtu", "field.glb", "field.obj"):
         assert main(["field", "scan.xyz", "--sources", "3", "-o", name]) == 0
     assert np.allclose(read_surface("field.ply").vertices, cloud.vertices)
-    assert pyvista.read("field.vtp").n_verts == 400
+    assert pyvista.read("field.vtp").n_verts == pyvista.read("field.vtu").n_cells == 400
     content = Path("field.glb").read_bytes()
     data = json.loads(content[20 : 20 + int.from_bytes(content[12:16], "little")])
     (primitive,) = data["meshes"][0]["primitives"]

@@ -173,6 +173,13 @@ def test_a_line_that_is_no_pair_is_named(mesh, tmp_path, capsys, line):
     assert "line 2: " in refused(capsys, "pairs", mesh, "--pairs", f"@{file}", "-o", tmp_path / "p.npy")
 
 
+def test_a_list_is_refused_where_one_distance_is_computed(mesh, capsys):
+    with pytest.raises(SystemExit):
+        main(["field", str(mesh), "--sources", "3", "--distance", "biharmonic,diffusion(t=1)"])
+    said = capsys.readouterr().err
+    assert "one distance at a time, not 'biharmonic,diffusion(t=1)'; `bihdist batch` computes several" in said
+
+
 @pytest.mark.parametrize("words", [["truncated(k=200)"], ["truncated"]])
 @pytest.mark.parametrize("command", [["field", "-o", "f.npy"], ["figure", "-o", "f.png"], ["statistics"]])
 def test_more_eigenpairs_than_the_mesh_has_are_refused(mesh, tmp_path, capsys, monkeypatch, command, words):

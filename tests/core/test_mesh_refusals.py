@@ -179,7 +179,11 @@ REFUSED = {
     "OBJ cut off at once": ("a.obj", obj() + "f", "does not end, is the face 'f'"),
     "OBJ cut off in a corner": ("a.obj", obj() + "f 1/1 2/2 3/", "does not end, is the face 'f 1/1 2/2 3/'"),
     "OBJ cut off in a normal": ("a.obj", obj() + "f 1//1 2//2 3", "does not end, is the face 'f 1//1 2//2 3'"),
-    "OBJ no faces": ("a.obj", obj(polygons=[]), "has 5 vertices but no faces"),
+    "OBJ no faces": (
+        "a.obj",
+        obj(polygons=[]),
+        "has 5 vertices but no faces; points without faces are read from .ply, .xyz",
+    ),
     "OBJ degenerate": ("a.obj", obj(polygons=[[0, 1]]), "has no faces"),
     "zero byte": ("a.obj", obj() + "\0", "is not a text file"),
     "PLY no header end": ("a.ply", ply("ascii").replace(b"end_header", b"end"), "its header has no line 'end_header'"),
