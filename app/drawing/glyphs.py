@@ -306,7 +306,13 @@ class LineLook:
     hidden: tuple[Stroke, ...] = ()
     rank: int = 0
 
+    def behind(self, opacity: float) -> tuple[tuple[Stroke, ...], float]:
+        """Return the strokes behind a surface of this opacity, and their own opacity: paler, if it is translucent."""
+        return (self.hidden, 1.0) if opacity == 1 else (self.strokes, max(1 - opacity, FAINTEST))
 
+
+FAINTEST = 0.35
+"""Opacity of lines behind a translucent surface, at least."""
 BOUNDARY = LineLook("regions", (Stroke("white", 4.5), Stroke("mark_edge", 2.0)))
 """The look of a region's boundary."""
 PATH = LineLook(

@@ -40,9 +40,6 @@ FINENESS = 0.03
 DOT = 0.05
 """Widths that a dot of a dotted line is long, besides its round ends; without any length PNG shows none."""
 
-FAINTEST = 0.35
-"""Opacity of lines behind a translucent surface, at least."""
-
 EDGE_FINENESS = 0.1
 """Units by which the edge of the shape may differ from its course between pixels."""
 
@@ -143,11 +140,10 @@ def _draw_shot(axes: Axes, page: ComposedPage, number: int, shot: Shot, vector: 
     if shot.outlines:
         width, name = style.outline * stroke, f"outline-{number}"
         add(shot.outlines, style.outline_colour, width, "round", order + 3, name, frame)
-    # Through a translucent surface lines are paler than before it.
-    hidden_opacity = 1.0 if shot.opacity == 1 or page.is_opaque else max(1 - shot.opacity, FAINTEST)
     for look, lines in shot.lines.items():
-        hidden = look.hidden if shot.opacity == 1 else look.strokes
-        for parts, looks, opacity in ((lines.course, hidden, hidden_opacity), (lines.seen, look.strokes, 1.0)):
+        hidden, opacity = look.behind(shot.opacity)
+        pale = 1.0 if page.is_opaque else opacity
+        for parts, looks, opacity in ((lines.course, hidden, pale), (lines.seen, look.strokes, 1.0)):
             for each in looks if parts else ():
                 width, name = each.width * stroke, f"{look.name}-{number}"
                 colour = (*style.named(each.colour), opacity)

@@ -41,8 +41,8 @@ def _npy(raw: bytes, name: str) -> FloatArray:
         raise MeshError(f"{name} cannot be read: {error}") from None
     if array.ndim != 2 or array.shape[1] != 3 or array.dtype.kind not in "iuf":
         raise MeshError(
-            f"{name} has {array.dtype} of the shape {array.shape}; points are real numbers (n, 3), "
-            "and values at vertices need their mesh first."
+            f"{name} holds {array.dtype} values of shape {array.shape}. Points need real numbers of shape (n, 3); "
+            "if these are values at vertices, open their mesh first."
         )
     return array.astype(np.float64)
 

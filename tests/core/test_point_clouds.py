@@ -107,7 +107,7 @@ def test_points_of_files(put, name):
 def test_points_of_an_array(put, tmp_path):
     assert np.array_equal(read_surface(put("a.npy", npy(tmp_path, POINTS))).vertices, POINTS)
     for wrong in (POINTS[:, :2], POINTS.astype(str), POINTS[0]):
-        with pytest.raises(MeshError, match=r"points are real numbers \(n, 3\)"):
+        with pytest.raises(MeshError, match=r"Points need real numbers of shape \(n, 3\)"):
             read_surface(put("b.npy", npy(tmp_path, wrong)))
 
 

@@ -109,7 +109,10 @@ def test_what_does_not_fit_is_refused_in_a_sentence(shown):
     s.session.close_meshes()
     drop(s, folder / "few.npy")
     s.until(lambda: s.refusals)
-    assert s.refusals.pop() == "few.npy has values at vertices; open its mesh first."
+    assert s.refusals.pop() == (
+        "few.npy holds float64 values of shape (7,). Points need real numbers of shape (n, 3); "
+        "if these are values at vertices, open their mesh first."
+    )
 
 
 def test_a_session_remembers_the_file_and_its_checksum(shown):

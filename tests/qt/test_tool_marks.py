@@ -1,12 +1,13 @@
 """What a tool of somebody else marks is painted in the window."""
 
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
 
 from app.document import tools
 from app.document.edits import move_source
-from app.drawing.glyphs import SOURCE
+from app.drawing.glyphs import PATH, SOURCE
 from app.qt.panels import line_marks
 from tests.figures.marked_tool import FLAG, TOOL
 from tests.shapes import bumpy
@@ -50,7 +51,25 @@ def test_lines_that_pass_beside_the_eye_are_painted_about_the_view_only(shared_s
     view.redraw()
     s.settle(0.1)
     assert np.nanmax(view.over.lines.pixels) > 1e7
-    boxes = [path.boundingRect() for _, strokes in view.over.lines._paths for _, path in strokes]
+    boxes = [path.boundingRect() for _, strokes in view.over.lines._paths for _, _, path in strokes]
     assert boxes
     for box in boxes:
         assert view.width() / 2 < box.right() <= 2 * view.width()
+
+
+def test_a_line_behind_a_translucent_surface_is_paler(shared_screen):
+    s = shared_screen()
+    s.session.show(replace(s.document, opacity=0.4))
+    s.settle(0.1)
+    view = s.panels[0].view
+    ahead = np.array(view.camera.GetDirectionOfProjection())
+    points = s.panels[0].positions
+    nearest, farthest = points[np.argmin(points @ ahead)], points[np.argmax(points @ ahead)]
+    view.over.lines.show([("", PATH, np.stack([nearest, farthest]))])
+    view.redraw()
+    s.settle(0.1)
+    lines = view.over.lines
+    assert (lines.is_seen[0], lines.is_seen[-1]) == (True, False)
+    ((_, strokes),) = lines._paths
+    assert [opacity for _, opacity, _ in strokes] == [0.6, 0.6, 1.0, 1.0]
+    assert view.scene.field_actor.opacity == 0.4

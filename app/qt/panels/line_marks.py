@@ -46,7 +46,7 @@ class LineMarks:
 
     def _forget(self) -> None:
         self.pixels, self.is_seen = np.empty((0, 2)), np.empty(0, bool)
-        self._paths: list[tuple[QtGui.QRegion, list[tuple[Stroke, QtGui.QPainterPath]]]] = []
+        self._paths: list[tuple[QtGui.QRegion, list[tuple[Stroke, float, QtGui.QPainterPath]]]] = []
 
     def show(self, lines: Sequence[Course]) -> None:
         """Show these lines and no others, from the next picture on."""
@@ -66,7 +66,7 @@ class LineMarks:
         self._forget()
         if not self._looks:
             return
-        view, depths = self._view, self._view.offscreen.depths()
+        view, depths = self._view, self._depths()
         for renderer, region, (left, top, width, height) in view.parts():
             pixels, is_seen = seen_in(renderer, self.points, depths[top : top + height, left : left + width])
             pixels += left, top
@@ -75,8 +75,22 @@ class LineMarks:
                 self.pixels, self.is_seen = pixels, is_seen
             self._paths.append((region, list(self._strokes(pixels / view.devicePixelRatioF(), is_seen))))
 
-    def _strokes(self, pixels: np.ndarray, is_seen: np.ndarray) -> Iterator[tuple[Stroke, QtGui.QPainterPath]]:
-        """Yield strokes, the lowest first; lines of one look are one path, so that no rim lies over a line."""
+    def _depths(self) -> np.ndarray:
+        """Return the depths of the last picture, those of its surfaces if they are translucent, which leave none."""
+        view, actor, scene = self._view, self._view.scene.field_actor, self._view.scene
+        opacity, seconds = actor.opacity, scene.seconds
+        if opacity < 1:
+            actor.show_opacity(1.0)
+            view.offscreen.picture(scene, view.pixels)
+            actor.show_opacity(opacity)
+            scene.seconds = seconds
+        return view.offscreen.depths()
+
+    def _strokes(self, pixels: np.ndarray, is_seen: np.ndarray) -> Iterator[tuple[Stroke, float, QtGui.QPainterPath]]:
+        """Yield strokes with their opacity, the lowest first.
+
+        Lines of one look are one path, so that no rim lies over a line.
+        """
         places, seen = np.split(pixels, self._ends), np.split(is_seen, self._ends)
         looks = dict.fromkeys(self._looks)
         width, height = self._view.width(), self._view.height()
@@ -90,7 +104,9 @@ class LineMarks:
                         for piece, _ in clipped((run, False), about):
                             path.addPolygon(QtGui.QPolygonF([QtCore.QPointF(*place) for place in piece.tolist()]))
                 if not path.isEmpty():
-                    yield from ((stroke, path) for stroke in (look.strokes if shows_seen else look.hidden))
+                    opacity = self._view.scene.field_actor.opacity
+                    strokes, own = (look.strokes, 1.0) if shows_seen else look.behind(opacity)
+                    yield from ((stroke, own, path) for stroke in strokes)
 
     def paint(self, painter: QtGui.QPainter) -> None:
         """Paint on the view and its insets."""
@@ -98,7 +114,8 @@ class LineMarks:
         for region, strokes in self._paths:
             painter.save()
             painter.setClipRegion(region, QtCore.Qt.ClipOperation.IntersectClip)
-            for stroke, path in strokes:
+            for stroke, opacity, path in strokes:
+                painter.setOpacity(opacity)
                 painter.strokePath(path, qt.pen_of(pen_of(stroke, view.scene.style, view.proportion)))
             painter.restore()
 
