@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Hashable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -84,6 +85,8 @@ class Graph:
             triples = [(number[i], number[j], w) for i, j, w in graph.edges(data=weight, default=1)]
             table = np.array(triples, float).reshape(-1, 3).T
             return cls(joined(table[0], table[1], table[2], nodes, name), nodes, name)
+        if isinstance(graph, str | os.PathLike):
+            raise ParameterError(f"{os.fspath(graph)!r} names a file; `read_graph` reads files.")
         matrix = sp.coo_matrix(graph)
         if matrix.shape[0] != matrix.shape[1]:
             raise ParameterError(f"{name}: the weights of a graph are an (n, n) matrix, not {matrix.shape}.")

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 from functools import cache, partial
 from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
-from bihdist_core.analysis.signature_types import SignatureSpec, is_signature
+from bihdist_core.analysis.signature_types import SIGNATURES, SignatureSpec, is_signature
 from bihdist_core.distances.distance_types import DistanceType, Spec
 from bihdist_core.errors import ParameterError
 
@@ -444,6 +444,8 @@ def quantity(text: str, point: str = "source", fields: Collection[str] = (), **p
             found.append(OwnField(part) if part in fields else next(each for each in read if each is not None))
         except ParameterError as error:
             names = f" The fields are {', '.join(fields)}." if fields else ""
+            if str(error).startswith("There is no distance"):
+                names = f" Signatures are {', '.join(SIGNATURES)}, and a difference is written 'a - b'.{names}"
             raise ParameterError(f"{error}{names}") from None
     if len(found) == 1:
         if words.startswith("raw "):

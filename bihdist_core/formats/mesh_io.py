@@ -25,6 +25,9 @@ from .gltf_file import with_buffers
 from .mesh_names import FORMATS, GZIP, JOIN, MESH_FORMATS, files_of, mesh_format
 from .polygons import Polygons, triangulated
 
+SAVED_BY = {"3MF": "MeshLab, Blender or another"} | dict.fromkeys(("LAS", "LAZ", "E57"), "CloudCompare or another")
+"""Formats that are not read, and what saves them in another."""
+
 
 def read_surface(path: str | os.PathLike[str]) -> Surface:
     """Read a mesh file.
@@ -132,9 +135,10 @@ def mesh_content(path: str | os.PathLike[str]) -> bytes:
         kind = path.stat().st_mode
         if stat.S_ISDIR(kind):
             raise MeshError(f"{path} is a folder, not a mesh file.")
-        if path.suffix.lower() == ".3mf":
+        form = path.suffix[1:].upper()
+        if form in SAVED_BY:
             raise MeshError(
-                f"{path.name} is a 3MF file, which is not read; save it as PLY first, in MeshLab, Blender or another."
+                f"{path.name} is a {form} file, which is not read; save it as PLY first, in {SAVED_BY[form]}."
             )
         if not mesh_format(path):
             formats = f"{', '.join(MESH_FORMATS)}, any of them with .gz, and FreeSurfer's such as lh.pial"

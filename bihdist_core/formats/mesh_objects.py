@@ -48,7 +48,9 @@ def surface_of(mesh: Any, faces: Any = None, name: str | None = None) -> Surface
     for x, f in ARRAYS:
         if hasattr(mesh, x) and hasattr(mesh, f):
             return Surface(np.asarray(getattr(mesh, x)), np.asarray(getattr(mesh, f)), name or type(mesh).__name__)
-    raise ParameterError(f"A mesh is {KNOWN}, not {type(mesh).__name__}.")
+    is_graph = any(hasattr(mesh, name) for name in ("edges", "n_edges", "tocsr"))
+    hint = " Distances of graphs and matrices take Graph.of(...).laplacian() or Laplacian.from_matrices(...)."
+    raise ParameterError(f"A mesh is {KNOWN}, not {type(mesh).__name__}.{hint if is_graph else ''}")
 
 
 def _of_pyvista(mesh: Any, name: str) -> Surface:

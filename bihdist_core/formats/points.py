@@ -30,7 +30,7 @@ def _xyz(raw: bytes, name: str) -> FloatArray:
     short = np.flatnonzero(rows.sizes < 3)
     if len(short) or not len(rows):
         where = f", line {rows.number[short[0]]}: {lines.line(int(short[0]))}" if len(short) else ""
-        raise MeshError(f"{name}{where} is not a point: three coordinates, and what else is in its line.")
+        raise MeshError(f"{name}{where} is not a point; each line begins with its three coordinates.")
     return rows.columns(3)
 
 

@@ -47,6 +47,9 @@ def test_the_command_field_writes_what_the_library_computes(mesh, tmp_path, caps
     assert (about["label"], about["unit"], about["columns"]) == (wanted.label, wanted.unit, ["hks"])
     assert about["accuracy"] == wanted.accuracy
     assert "--t 0.5 is not a parameter of bks" in refused(capsys, "field", mesh, "--quantity", "bks", "--t", "0.5")
+    said = refused(capsys, "field", mesh, "--quantity", "hsk")
+    assert "no distance 'hsk'" in said
+    assert "Signatures are centrality, bks, hks, wks, and a difference is written 'a - b'." in said
 
 
 def test_between_two_vertices_there_is_none(mesh, capsys):

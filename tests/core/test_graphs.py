@@ -120,8 +120,16 @@ def test_files_that_are_no_graph_are_refused_by_the_place(name, text, message, t
         (networkx.DiGraph([(0, 1)]), "directed"),
         (np.array([[0.0, 1.0], [2.0, 0.0]]), "symmetric"),
         (np.ones((2, 3)), r"\(n, n\)"),
+        ("roads.csv", "'roads.csv' names a file; `read_graph` reads files"),
     ],
 )
 def test_what_is_no_undirected_graph_is_refused(graph, message):
     with pytest.raises(ParameterError, match=message):
         Graph.of(graph)
+
+
+def test_distances_of_a_graph_ask_for_its_laplacian():
+    known = networkx.path_graph(3)
+    for graph in (known, Graph.of(known), Graph.of(known).weights):
+        with pytest.raises(ParameterError, match=r"Graph\.of\(\.\.\.\)\.laplacian\(\)"):
+            BiharmonicDistance(graph)

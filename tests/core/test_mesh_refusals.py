@@ -67,6 +67,9 @@ def test_an_unknown_extension_lists_the_known_ones(put):
     assert all(extension in message for extension in MESH_FORMATS)
     assert refused(put("mesh", "x")).startswith("mesh has no extension; ")
     assert refused(put("part.3MF", "PK")).startswith("part.3MF is a 3MF file, which is not read; save it as PLY first")
+    assert refused(put("a.laz", "LASF")) == (
+        "a.laz is a LAZ file, which is not read; save it as PLY first, in CloudCompare or another."
+    )
 
 
 def test_a_pipe_is_refused_and_not_waited_for(tmp_path):

@@ -114,7 +114,7 @@ def test_points_of_an_array(put, tmp_path):
 @pytest.mark.parametrize(
     ("name", "content", "reason"),
     [
-        ("a.xyz", "1 2 3\n1 2\n", "line 2: '1 2' is not a point"),
+        ("a.xyz", "1 2 3\n1 2\n", "line 2: '1 2' is not a point; each line begins"),
         ("a.xyz", "3\nwater\nO 0 0 0\n", "a number"),
         ("a.pcd", "VERSION 0.7\n", "no line DATA"),
         ("a.pcd", "FIELDS x y\nSIZE 4 4\nTYPE F F\nPOINTS 1\nDATA ascii\n1 2\n", "without x, y and z"),
