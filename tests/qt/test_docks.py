@@ -51,6 +51,20 @@ def test_a_narrow_window_has_room_for_pins_beside_a_profile(screen, mesh_file):
         assert profile.rect().contains(QtCore.QRect(button.mapTo(profile, QtCore.QPoint()), button.size()))
 
 
+def test_tabs_of_many_docks_in_a_narrow_window_keep_their_words(screen, mesh_file):
+    s = screen()
+    s.window.resize(900, 600)
+    s.open(mesh_file(bumpy(200)), 5)
+    for word in ("statistics", "quality", "regions", "pins", "inside", "robustness"):
+        parts(s.window).docks.toggle(word)
+    s.settle(0.5)
+    (bar,) = (bar for bar in s.window.findChildren(QtWidgets.QTabBar) if bar.isVisible())
+    assert bar.count() == 6
+    for k in range(6):
+        assert bar.tabRect(k).width() > bar.fontMetrics().horizontalAdvance(bar.tabText(k))
+    assert bar.width() <= 400
+
+
 @pytest.mark.parametrize("stays_open", [True, False])
 def test_a_dock_that_has_been_widened_keeps_its_width_when_another_opens(shared_screen, stays_open):
     s = shared_screen(bumpy(200))

@@ -226,7 +226,10 @@ QAbstractSpinBox::up-button {{ subcontrol-position: top right; top: 1px; }}
 QAbstractSpinBox::down-button {{ subcontrol-position: bottom right; bottom: 1px; }}
 QGroupBox {{ border: none; margin-top: 22px; font-weight: 600; }}
 QGroupBox::title {{ subcontrol-origin: margin; subcontrol-position: top left; }}
-QTabBar {{ background: {theme.window}; qproperty-drawBase: 0; }}
+QTabBar {{ background: {theme.window}; qproperty-drawBase: 0; qproperty-elideMode: ElideNone;
+  qproperty-usesScrollButtons: true; }}
+QTabBar::tear {{ image: none; width: 0px; }}
+QTabBar QToolButton {{ background: {theme.window}; border: none; border-radius: 0px; }}
 QTabBar::tab {{ background: {theme.window}; color: {theme.quiet}; border: none; border-bottom: 2px solid transparent;
   padding: 7px 12px; }}
 QTabBar::tab:hover {{ background: {theme.hover}; color: {theme.text}; }}
