@@ -331,6 +331,15 @@ def test_every_letter_of_the_export_dialog_has_one_key(small):
     dialog.close()
 
 
+def test_the_boxes_of_a_dialog_start_in_one_column(small):
+    for dialog in (export_figure(small.context), export_movie(small.context)):
+        QtTest.QTest.qWait(1)
+        labels = [each for each in dialog.findChildren(QtWidgets.QLabel) if each.buddy() and each.isVisibleTo(dialog)]
+        assert len(labels) > 4
+        assert len({each.width() for each in labels}) == 1, {each.text(): each.width() for each in labels}
+        dialog.close()
+
+
 def test_every_box_has_a_name_and_a_tip(small):
     for dialog in (export_figure(small.context), export_movie(small.context)):
         boxes = [

@@ -27,7 +27,7 @@ BESIDE = 316
 LARGE = (1140, 780)
 """Size of a dialog with a picture, where there is room."""
 
-LABEL, LABEL_BESIDE = 116, 96
+LABEL, LABEL_BESIDE = 128, 96
 """Width of labels, and beside a picture."""
 
 
