@@ -72,11 +72,11 @@ def read_graph(path: str | os.PathLike[str]) -> Graph:
 
 def _read_list(path: Path) -> Edges:
     text = file_text(path, "graph")
-    bare = _COMMENT.sub("", text)
+    bare = _COMMENT.sub("", text).lstrip()
     first, _, rest = bare.partition("\n")
-    mark = next((mark for mark in ",;\t" if mark in first), None)
+    mark = next((mark for mark in ";\t," if mark in first), None)  # a comma last, as it may be a decimal one
     table = _numbers(bare, mark)
-    if table is None:
+    if table is None and _numbers(first, mark) is None:
         table = _numbers(rest, mark)  # the first line may be headings
     if table is None or table.shape[1] < 2 or (table[:, :2] != np.rint(table[:, :2])).any():
         return _named(text, mark, path)
@@ -96,7 +96,7 @@ def _numbers(text: str, mark: str | None) -> FloatArray | None:
 def _named(text: str, mark: str | None, path: Path) -> Edges:
     number: dict[str, int] = {}
     rows: list[tuple[int, int, float]] = []
-    is_first = True
+    is_first, has_weights = True, False
     for place, line in numbered_lines(text):
         if line.startswith(("#", "%")):
             continue
@@ -111,6 +111,11 @@ def _named(text: str, mark: str | None, path: Path) -> Edges:
         except ValueError:
             shown = shortened(repr(words[2]), 40)
             raise ParameterError(f"{path}, line {place}: the weight {shown} is not a number.") from None
+        has_weights = len(words) > 2 if not rows else has_weights
+        if has_weights != (len(words) > 2):
+            raise ParameterError(
+                f"{path}, line {place} has {'no' if has_weights else 'a'} weight, unlike lines before."
+            )
         i, j = (number.setdefault(word, len(number)) for word in words[:2])
         rows.append((i, j, weight))
     return list(number), *_columns(rows)

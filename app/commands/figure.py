@@ -80,6 +80,8 @@ def chosen_recipe(options: argparse.Namespace) -> Recipe:
         if options.mesh is None:
             raise ParameterError("There is nothing to draw; name a mesh, or a recipe with --recipe.")
         check_mesh(options.mesh)
+        if options.mesh.lower().endswith(".json"):
+            raise ParameterError(f"A recipe or a session is named with --recipe {options.mesh}.")
         return _changed(Recipe(comparison(options.mesh)), options)
     if options.mesh is not None:
         raise ParameterError(f"With --recipe, another mesh is named as --mesh {options.mesh}.")

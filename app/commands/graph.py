@@ -137,7 +137,7 @@ def _pairs(text: str) -> list[list[str]]:
     each = file_text(text[1:], "file of pairs").split("\n") if text.startswith("@") else split_list(text)
     found = [re.split("[:,\t]", word.strip()) for word in each if word.strip()]
     if wrong := next((pair for pair in found if len(pair) != 2), None):
-        raise ParameterError(f"--pairs names two nodes with a colon between, A:B, not {':'.join(wrong)!r}.")
+        raise ParameterError(f"a pair is two nodes with a colon between, A:B, not {':'.join(wrong)!r}.")
     return found
 
 

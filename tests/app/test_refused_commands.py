@@ -173,6 +173,13 @@ def test_a_line_that_is_no_pair_is_named(mesh, tmp_path, capsys, line):
     assert "line 2: " in refused(capsys, "pairs", mesh, "--pairs", f"@{file}", "-o", tmp_path / "p.npy")
 
 
+@pytest.mark.parametrize(("command", "ending"), [("figure", "png"), ("movie", "gif"), ("page", "html")])
+def test_a_session_in_the_place_of_a_mesh_is_a_recipe(command, ending, tmp_path, capsys):
+    (tmp_path / "hand.json").write_text("{}")
+    said = refused(capsys, command, tmp_path / "hand.json", "-o", tmp_path / f"out.{ending}")
+    assert f"A recipe or a session is named with --recipe {tmp_path / 'hand.json'}." in said
+
+
 def test_a_list_is_refused_where_one_distance_is_computed(mesh, capsys):
     with pytest.raises(SystemExit):
         main(["field", str(mesh), "--sources", "3", "--distance", "biharmonic,diffusion(t=1)"])

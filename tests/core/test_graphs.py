@@ -97,6 +97,8 @@ def test_numbers_need_no_comma_and_loops_are_left_out(tmp_path):
         ("a.csv", "a,b,1\nb,a,2\n", "from a to b has the weight 1 and back 2"),
         ("a.csv", "a,b,1\n\nb,c,x\n", "line 3: the weight 'x' is not a number"),
         ("a.csv", "a,b\nc\n", "line 2: an edge has two nodes"),
+        ("a.csv", "a;b;1,5\nb;c;2,5\n", "line 1: the weight '1,5' is not a number"),
+        ("a.csv", "1,2,5\n2,3\n", "line 2 has no weight, unlike lines before"),
         ("a.csv", "1,2,-1\n", "that of the edge from 1 to 2 is -1"),
         ("a.csv", "", "has no edge"),
         ("a.graph", "", "has no edge"),
