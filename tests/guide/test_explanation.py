@@ -49,7 +49,7 @@ SAID = {
         r"BiharmonicDistance mean +\d\.\d+%, most +\d\.\d+%\nGeodesicDistance +mean +\d\.\d+%, most 5\d\.\d+%\njoined",
     ],
     "graphs": [
-        r"binary tree +31 +30 +\de-1\d +nan +1\.00.*\nbarbell +23 +94 +\de-1\d +0\.47 +1\.00",
+        r"binary tree +31 +30 +\de-1\d +– +1\.00.*\nbarbell +23 +94 +\de-1\d +0\.47 +1\.00",
         r"karate club +34 +78 .* 0\.37 .*\n.*\n.* +0\.36 +0\.83 +0\.94",
         r"groups, 2 % between +1\.00 +1\.00 +1\.00 +0\.[0-5]\d +1\.00 +1\.00 +1\.00\n",
         r"groups, 10 % between +0\.[0-6]\d +0\.[89]\d +(1\.00|0\.9\d) +0\.3\d +0\.3\d +0\.3\d +0\.[89]",
