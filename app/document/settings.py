@@ -210,6 +210,15 @@ class Preferences:
         menu="camera",
         synonyms="rotate orbit trackball upright",
     )
+    ambient_occlusion: bool = _preference(
+        False,
+        "&Ambient occlusion",
+        {False: "None", True: "Darken folds"},
+        "Darken what the rest of the shape hides from the light",
+        label="Ambient &occlusion",
+        menu="shading",
+        synonyms="shadow light folds depth cavity",
+    )
     snap: bool = _preference(
         True,
         "&Source",

@@ -140,6 +140,7 @@ class MainWindow(QtWidgets.QMainWindow):
         grid.keys = self.actions_by_word.key_of_view
         grid.follow_preferences(context.preferences)
         context.preferred.connect(lambda _: grid.follow_preferences(context.preferences))
+        grid.occlusion.failed.connect(context.fail)
         self._scroll = QtWidgets.QScrollArea(widgetResizable=True)
         self._scroll.setHorizontalScrollBarPolicy(QtCore.Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         self._scroll.setFocusPolicy(QtCore.Qt.FocusPolicy.NoFocus)

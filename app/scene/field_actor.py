@@ -34,10 +34,19 @@ FINE = 8192
 
 TINTS = {
     "selected": ("selectedAt", "vec4"), "colours": ("coloursAt", "vec4"), "labels": ("coloursOf", "corners vec4"),
-    "base": ("baseAt", "float"),
+    "base": ("baseAt", "float"), "light": ("lightAt", "float"),
 }  # fmt: skip
 """Colours of vertices besides those of the field, each with an attribute of the shader: its name there and its type.
-Those of labels are there for all corners of a face, as between two there is no third; the base has shares of greys."""
+Those of labels are there for all corners of a face, as between two there is no third; the base has shares of greys, and
+light is a share of the colours."""
+
+_STAY = {"selected", "base", "light"}
+"""Those that are there with any field."""
+
+OCCLUSION = 0.7
+"""The fraction of its colours that a vertex loses where no light arrives."""
+
+_DARKEN = f"  fragOutput0.rgb *= {1 - OCCLUSION:.2f} + {OCCLUSION:.2f} * lightAt;\n"
 
 _LIT = "//VTK::Light::Impl"
 
@@ -193,7 +202,7 @@ class FieldActor:
             self._tint("colours", tint)
 
     def _drop_colours(self) -> None:
-        for name in self._tints.keys() - {"selected", "base"}:
+        for name in self._tints.keys() - _STAY:
             self._tint(name, None)
 
     def show_base(self, base: Greys | None, has_coloured_isolines: bool = True) -> None:
@@ -204,6 +213,11 @@ class FieldActor:
         if shares is not self._tints.get("base"):
             self._tint("base", shares)
         self._pass_tints(set(self._tints))
+
+    def show_light(self, light: AnyArray | None) -> None:
+        """Darken vertices by the share (n,) float32 of the light that reaches them; None for none."""
+        if light is not self._tints.get("light"):
+            self._tint("light", light)
 
     def _tint(self, name: str, colours: ByteArray | FloatArray | None) -> None:
         """Let vertices have colours (n, 4) uint8, multiplied by alpha, or shares (n,) of a base; None for none."""
@@ -479,9 +493,9 @@ class FieldActor:
         pass_on(shader, *attributes)
         # Edges that are seen or not, VTK draws them by a geometry shader, which labels need.
         self.actor.GetProperty().SetEdgeVisibility(has_edges or "labels" in names)
-        put_face_look(shader, has_edges, bool(names - {"selected", "base"}), "base" in names, "labels" in names)
+        put_face_look(shader, has_edges, bool(names - _STAY), "base" in names, "labels" in names)
         paint = _PAINT.replace("ISOLINE", "fieldColour" if has_own_colours else "isolineColour")
-        paint = (PAINT_SELECTED if "selected" in names else "") + paint
+        paint = (_DARKEN if "light" in names else "") + (PAINT_SELECTED if "selected" in names else "") + paint
         paint += _PAINT_SECTION if self.clip is not None else ""
         rim = _RIM.format(self.style.rim) if self.style.rim else ""
         shader.AddFragmentShaderReplacement(_LIT, False, f"{_LIT}\n{rim}{paint}", False)

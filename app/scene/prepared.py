@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from bihdist_core import Surface
-from bihdist_core.arrays import FloatArray
+from bihdist_core.arrays import AnyArray, FloatArray
 
 from ..document.looks import AS_IT_IS, Shading
 
@@ -53,6 +53,8 @@ class Meshes:
     def __init__(self, surface: Surface) -> None:
         self.surface = surface
         self.usual = self.made(AS_IT_IS)
+        self.light: AnyArray | None = None
+        """The share of the light that reaches each vertex (n,), if it was asked for."""
         self._last = self.usual
 
     def ready(self, shading: Shading) -> "Drawn | None":

@@ -20,6 +20,7 @@ from ...session.bar_ends import bar_end, ends_with
 from ...session.base import BaseGreys
 from ...session.session import Session
 from ..look.look import LOOK
+from .ambient_occlusion import AmbientOcclusion
 from .camera_controller import CameraController
 from .events import Events
 from .grid_marks import GridMarks
@@ -67,6 +68,8 @@ class PanelGrid(QtWidgets.QWidget):
         self.labels = LineLabels(lambda: self.panels, self)
         self._shading_cache = ShadingCache(self)
         self._shading_cache.made.connect(self.show_shading)
+        self.occlusion = AmbientOcclusion(self)
+        self.occlusion.made.connect(self.show_shading)
         self.camera_controllers = tuple(
             CameraController(session, lambda: self.panels, self, place) for place in range(MOST_SHOWN)
         )
@@ -237,6 +240,7 @@ class PanelGrid(QtWidgets.QWidget):
         shading, loaded = self._session.document.shading, self._session.loaded(panel.surface)
         if loaded is not None:
             panel.show_shading(shading, self._shading_cache.drawn(loaded.prepared.meshes, shading))
+            panel.show_light(self.occlusion.light(loaded.prepared.meshes))
 
     def show_base(self, document: Document) -> None:
         """Show the greys of the document's base on all surfaces, or none."""
@@ -290,12 +294,15 @@ class PanelGrid(QtWidgets.QWidget):
             self.motion.moved()
 
     def follow_preferences(self, preferences: Preferences) -> None:
-        """Turn and zoom as the user prefers."""
+        """Turn, zoom and shade as the user prefers."""
         self.wheel_factor = -1.0 if preferences.wheel_reversed else 1.0
         for panel in (*self.panels, *self._spare):
             panel.view.wheel_factor = self.wheel_factor
         self.camera_controller.is_turntable = preferences.turntable
         self.turn_upright()
+        if self.occlusion.is_on != preferences.ambient_occlusion:
+            self.occlusion.is_on = preferences.ambient_occlusion
+            self.show_shading()
 
     def turn_upright(self) -> None:
         """Let surfaces turn about what is up now, freely or as on a turntable."""

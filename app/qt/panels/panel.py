@@ -153,6 +153,11 @@ class DistancePanel(QtWidgets.QWidget):
         self._shading, self._drawn = shading, drawn
         self.view.redraw()
 
+    def show_light(self, light: AnyArray | None) -> None:
+        """Darken vertices by the share (n,) of the light that reaches them; None for none."""
+        self._field_actor.show_light(light)
+        self.view.redraw()
+
     def show_inside(self, clip: Clip | None, opacity: float) -> bool:
         """Cut the surface as it is drawn by a plane, and let it be translucent; return whether that is otherwise."""
         actor = self._field_actor
